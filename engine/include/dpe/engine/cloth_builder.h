@@ -1,0 +1,84 @@
+// Builds cloths: rectangular grids and triangle meshes, with springs, masses and
+// stiffnesses by the construction rule stated at BuildClothFromMesh.
+#ifndef DPE_ENGINE_CLOTH_BUILDER_H_
+#define DPE_ENGINE_CLOTH_BUILDER_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dpe/engine/scene.h"
+
+namespace dpe {
+
+// Vertices (3N, xyz interleaved, m) and triangles of a mesh.
+struct TriangleMesh {
+  Eigen::VectorXd positions;
+  std::vector<std::array<int, 3>> triangles;
+};
+
+// Plane in which a grid cloth stands.
+enum class GridPlane {
+  kXZ,  // i -> x, j -> z (lying)
+  kYZ,  // i -> y, j -> z (standing, as the flags do)
+};
+
+// A grid of `cols` (i, fast) x `rows` (j) vertices; vertex index cols * j + i; edges of
+// the square have length `size` (m), centred at the origin.
+// @throws SceneError for fewer than 2 rows or columns, or a size that is not positive.
+TriangleMesh MakeGrid(int rows, int cols, double size, GridPlane plane);
+
+// Reads vertices and triangles of a Wavefront OBJ file (faces are triangulated).
+// @throws SceneError naming file and problem.
+TriangleMesh LoadObjMesh(const std::string& path);
+
+struct ClothMaterial {
+  double traction_stiffness = 50.0;  // K of edge springs: k = K vol / L^2, N/m
+  double bending_stiffness = 12.5;   // K of bending springs, N/m
+  double shear_stiffness = -1.0;     // K of diagonal edges; negative: as traction
+  double density = 0.1;              // kg/m^2
+  double damping = 0.1;
+  double drag_coefficient = 0.1;
+};
+
+// Builds a cloth over a mesh.
+//
+// For each triangle (t0,t1,t2) in order, with area A, its edges (t0,t1) opposite t2,
+// (t0,t2) opposite t1, (t1,t2) opposite t0 are visited. A new edge appends a traction
+// spring with vol = A. An edge seen before has its vol increased by A and appends at
+// once a bending spring between the two opposite vertices, with vol = 2A. The stiffness
+// is k = K vol / L^2 with rest length L; the mass of a vertex is the density times a
+// third of the areas of its triangles. An edge spring is of kind shear if it is the
+// longest edge of all its triangles (a grid's diagonals), otherwise stretch.
+ClothObject BuildClothFromMesh(const TriangleMesh& mesh, const ClothMaterial& material);
+
+// A smooth random field over vertices or spring midpoints: exp(s z), with z a sum of a
+// few random cosine waves, zero mean and unit variance. For heterogeneous cloths.
+//
+// @param points       3 x n, m
+// @param sigma        s, standard deviation of the logarithm
+// @param wave_length  shortest wave length, m
+// @param seed         of a std::mt19937
+Eigen::VectorXd SmoothRandomField(const Eigen::Matrix3Xd& points, double sigma,
+                                  double wave_length, std::uint32_t seed);
+
+enum class ScenePreset { kSide, kCorners, kFlag, kFlagNoWind };
+
+// The preset of a name: side, corners, flag, flag_no_wind. @throws SceneError
+ScenePreset ScenePresetFromName(const std::string& name);
+
+struct PresetOptions {
+  int rows = 12;
+  int cols = 12;
+  double size = 7.0;  // m
+  ClothMaterial material;
+};
+
+// A complete scene of one cloth: pins, wind, frames and time step of the preset.
+Scene MakePresetScene(ScenePreset preset, const PresetOptions& options = {});
+
+}  // namespace dpe
+
+#endif  // DPE_ENGINE_CLOTH_BUILDER_H_

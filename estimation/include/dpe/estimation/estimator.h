@@ -1,0 +1,127 @@
+// The main job: recover a scene's estimated parameters from observed positions.
+#ifndef DPE_ESTIMATION_ESTIMATOR_H_
+#define DPE_ESTIMATION_ESTIMATOR_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dpe/engine/scene.h"
+#include "dpe/engine/sensitivity.h"
+#include "dpe/engine/trajectory.h"
+#include "dpe/estimation/observations.h"
+
+namespace dpe {
+
+enum class SolverType { kAuto, kLevenbergMarquardt, kLbfgs };
+
+// Where the optimiser starts.
+enum class InitMethod {
+  kAuto,             // inverse dynamics if every free vertex is observed, else screen
+                     // for up to `max_screen_parameters` parameters, else the scene
+  kInverseDynamics,  // linear least squares on the step equations
+  kScene,            // the scene file's own values
+  kUniform,          // one value for every estimated parameter
+  kScreen,           // log-spaced trial values on a short horizon, the best one
+};
+
+// What a progress callback is told after every iteration.
+struct IterationReport {
+  int iteration = 0;
+  double cost = 0.0;       // 1/2 sum of squares, m^2
+  double rms = 0.0;        // m
+  double step_norm = 0.0;  // in the optimiser's (log) coordinates
+  double gradient_max_norm = 0.0;
+  double seconds = 0.0;    // since the start
+  bool step_accepted = true;
+};
+
+struct EstimatorOptions {
+  SolverType solver = SolverType::kAuto;
+  JacobianMethod jacobian = JacobianMethod::kAuto;
+  InitMethod init = InitMethod::kAuto;
+  double uniform_value = 1.0;       // for kUniform, in each parameter's SI unit
+  double init_perturbation = 0.0;   // multiply the start by exp(this * N(0,1)), seeded
+  std::uint64_t seed = 0;           // of the perturbation
+  int max_iterations = 200;
+  double max_seconds = 1e9;
+  int num_threads = 1;
+  int num_frames = 0;  // frames to fit; <= 0: as many as were observed
+
+  // The fit stops as converged when the RMS has fallen below this (m): beneath it there
+  // is only rounding error. Relative to the scene's size of a few metres.
+  double rms_tolerance = 1e-12;
+  // As in ceres::Solver::Options.
+  double function_tolerance = 1e-14;
+  double gradient_tolerance = 1e-18;
+  double parameter_tolerance = 1e-12;
+
+  std::function<void(const IterationReport&)> progress;
+  // Polled between and within rollouts; true stops the fit with the best so far.
+  std::function<bool()> interrupted;
+};
+
+enum class Termination {
+  kConverged,      // the result is usable
+  kMaxIterations,  // stopped before converging, best so far
+  kMaxSeconds,
+  kInterrupted,
+  kStartFailed,      // the rollout of the starting point failed
+  kNumericalFailure  // the optimiser could not go on
+};
+
+std::string TerminationName(Termination termination);  // "converged", ...
+
+// One estimated block, expanded to the object's elements.
+struct EstimatedBlock {
+  int object = -1;
+  std::string kind;  // "mass", ...
+  char mode = 'G';
+  std::string unit;
+  Eigen::VectorXd values;     // one per unknown of the block
+  std::vector<int> elements;  // for mode L: the element of each value
+  std::vector<int> inactive;  // elements without influence on the motion
+};
+
+struct EstimatorSummary {
+  Termination termination = Termination::kNumericalFailure;
+  std::string message;           // one sentence: why it stopped
+  std::string solver;            // "lm" or "lbfgs"
+  std::string solver_reason;     // why this one
+  std::string jacobian;          // "tangent", "adjoint", or "gradient" for L-BFGS
+  std::string init;              // the method that gave the start
+  std::vector<std::string> notes;  // gauges fixed, values clamped, ...
+  int iterations = 0;
+  int evaluations = 0;           // rollouts
+  int jacobian_evaluations = 0;  // derivative passes
+  double wall_time_s = 0.0;
+  double initial_cost = 0.0;  // 1/2 sum of squares, m^2
+  double final_cost = 0.0;
+  double initial_rms = 0.0;  // m
+  double final_rms = 0.0;
+  int num_frames = 0;
+  Eigen::VectorXd parameters;  // layout order, SI units
+  std::vector<EstimatedBlock> blocks;
+  Scene scene;  // the input scene with the estimated values in it
+
+  bool usable() const { return termination == Termination::kConverged; }
+};
+
+// Estimates the parameters that `scene` marks as estimated (optimizationSettings,
+// `estimate`) from `observations`. The scene's values of estimated parameters are not
+// used, except by InitMethod::kScene; where mass and stiffness are both estimated and no
+// known force fixes their scale, the object's total mass is (and a note says so).
+//
+// @throws SceneError if nothing is estimated or observed, or an option does not fit.
+EstimatorSummary Estimate(const Scene& scene, const Observations& observations,
+                          const EstimatorOptions& options);
+
+// Mean over the parameters that act on the motion of 100 |p - p_true| / |p_true|; NaN if
+// no block of the layout can represent the truth.
+double ParameterDeviationPercent(const EstimatorSummary& summary, const Scene& truth);
+
+}  // namespace dpe
+
+#endif  // DPE_ESTIMATION_ESTIMATOR_H_
