@@ -26,3 +26,12 @@ if(NOT TARGET dpe_suitesparse)
   target_link_libraries(dpe_suitesparse INTERFACE ${DPE_SUITESPARSE_LIBRARIES}
                         ${LAPACK_LIBRARIES} ${BLAS_LIBRARIES})
 endif()
+
+# tinyobjloader is used as the single header it is: its packages differ in whether they
+# offer the library in double precision, which we need.
+find_path(DPE_TINYOBJLOADER_INCLUDE_DIR tiny_obj_loader.h)
+if(NOT DPE_TINYOBJLOADER_INCLUDE_DIR)
+  message(FATAL_ERROR "tiny_obj_loader.h was not found: install libtinyobjloader-dev "
+                      "(Debian, Ubuntu), tinyobjloader-devel (Fedora) or tinyobjloader "
+                      "(Homebrew).")
+endif()

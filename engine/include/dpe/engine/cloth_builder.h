@@ -30,8 +30,10 @@ enum class GridPlane {
 // @throws SceneError for fewer than 2 rows or columns, or a size that is not positive.
 TriangleMesh MakeGrid(int rows, int cols, double size, GridPlane plane);
 
-// Reads vertices and triangles of a Wavefront OBJ file (faces are triangulated).
-// @throws SceneError naming file and problem.
+// Reads vertices and triangles of a Wavefront OBJ file. Faces are triangulated;
+// vertices that belong to no face are left out (they would have no mass), and the
+// others keep their order.
+// @throws SceneError naming file, line where there is one, and problem.
 TriangleMesh LoadObjMesh(const std::string& path);
 
 struct ClothMaterial {
@@ -51,18 +53,49 @@ struct ClothMaterial {
 // once a bending spring between the two opposite vertices, with vol = 2A. The stiffness
 // is k = K vol / L^2 with rest length L; the mass of a vertex is the density times a
 // third of the areas of its triangles. An edge spring is of kind shear if it is the
-// longest edge of all its triangles (a grid's diagonals), otherwise stretch.
+// longest edge of all its triangles (a grid's diagonals), otherwise stretch. All
+// vertices are free.
+//
+// @throws SceneError for a mesh without triangles, indices out of range, triangles
+//         without area, vertices without a triangle, opposite vertices that coincide,
+//         and material constants that are not finite or negative.
 ClothObject BuildClothFromMesh(const TriangleMesh& mesh, const ClothMaterial& material);
 
+// Makes the vertices fixed that lie in a closed box (with a margin of 1e-6 of the
+// cloth's extent, since corners of a box are typed with few digits).
+// @return  how many vertices the box holds
+int PinBox(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
+           ClothObject* cloth);
+
+// Makes vertices fixed. @throws SceneError for an index out of range.
+void PinVertices(const std::vector<int>& vertices, ClothObject* cloth);
+
+// Makes all vertices free.
+void UnpinAll(ClothObject* cloth);
+
 // A smooth random field over vertices or spring midpoints: exp(s z), with z a sum of a
-// few random cosine waves, zero mean and unit variance. For heterogeneous cloths.
+// few random cosine waves, zero mean and unit variance over the points. The same seed
+// gives the same field with every compiler and standard library.
 //
 // @param points       3 x n, m
 // @param sigma        s, standard deviation of the logarithm
-// @param wave_length  shortest wave length, m
+// @param wave_length  shortest wave length, m; the longest is three times as long
 // @param seed         of a std::mt19937
+// @throws SceneError  for a negative sigma or a wave length that is not positive
 Eigen::VectorXd SmoothRandomField(const Eigen::Matrix3Xd& points, double sigma,
                                   double wave_length, std::uint32_t seed);
+
+// Spatial variation of a cloth's material, each quantity with a field of its own.
+struct MaterialVariation {
+  double stiffness_sigma = 0.0;  // of the logarithm of the springs' stiffness
+  double mass_sigma = 0.0;       // of the logarithm of the vertices' mass
+  double wave_length = 3.5;      // m
+  std::uint32_t seed = 1;
+};
+
+// Multiplies stiffness (at spring midpoints) and mass (at vertices) by smooth random
+// fields. A sigma of zero leaves the quantity as it is.
+void VaryMaterial(const MaterialVariation& variation, ClothObject* cloth);
 
 enum class ScenePreset { kSide, kCorners, kFlag, kFlagNoWind };
 
@@ -76,8 +109,12 @@ struct PresetOptions {
   ClothMaterial material;
 };
 
-// A complete scene of one cloth: pins, wind, frames and time step of the preset.
+// A complete scene of one grid cloth: pins, wind, frames and time step of the preset.
 Scene MakePresetScene(ScenePreset preset, const PresetOptions& options = {});
+
+// The preset's wind, frames and time step around a cloth of any shape. Its pins are the
+// cloth's own: a preset's pins are rows and corners of a grid.
+Scene MakeClothScene(ScenePreset preset, ClothObject cloth);
 
 }  // namespace dpe
 

@@ -1,0 +1,117 @@
+// The copy of tinyobjloader in this file reads double precision. Its own namespace is
+// renamed so that it cannot meet a single precision copy elsewhere in the program.
+#define tinyobj dpe_tinyobj
+#define TINYOBJLOADER_USE_DOUBLE
+#define TINYOBJLOADER_IMPLEMENTATION
+#include <tiny_obj_loader.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "dpe/engine/cloth_builder.h"
+
+namespace dpe {
+namespace {
+
+std::string ReadText(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(stream)),
+                   std::istreambuf_iterator<char>());
+  // Opening a folder succeeds, reading it does not.
+  if (!stream.is_open() || stream.bad()) {
+    throw SceneError(path + ": cannot be read: " + std::strerror(errno));
+  }
+  return text;
+}
+
+// The loader takes a coordinate that is not a number for zero, so the lines of the
+// vertices are read here, with their line number.
+std::vector<double> ReadVertices(const std::string& path, const std::string& text) {
+  std::vector<double> coordinates;
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const size_t start = line.find_first_not_of(" \t");
+    if (start == std::string::npos || line[start] != 'v') continue;
+    const char* cursor = line.c_str() + start + 1;
+    if (*cursor != ' ' && *cursor != '\t') continue;  // vn, vt, ...
+    for (int axis = 0; axis < 3; ++axis) {
+      char* end = nullptr;
+      const double value = std::strtod(cursor, &end);
+      if (end == cursor || !std::isfinite(value)) {
+        throw SceneError(path + ": line " + std::to_string(number) + ": \"" +
+                         line.substr(0, 60) +
+                         "\" is not accepted; expected \"v\" and three finite numbers");
+      }
+      coordinates.push_back(value);
+      cursor = end;
+    }
+  }
+  return coordinates;
+}
+
+std::vector<std::array<int, 3>> ReadTriangles(const std::string& path,
+                                              const std::string& text) {
+  tinyobj::ObjReaderConfig config;
+  config.triangulate = true;
+  config.vertex_color = false;
+  tinyobj::ObjReader reader;
+  if (!reader.ParseFromString(text, "", config)) {
+    throw SceneError(path + ": " + reader.Error());
+  }
+  // Faces with a bad index or fewer than three corners are dropped with a warning; a
+  // cloth with holes where nobody cut them is no use.
+  for (const char* problem : {"out of bounds", "egenerated face"}) {
+    if (reader.Warning().find(problem) != std::string::npos) {
+      throw SceneError(path + ": " + reader.Warning());
+    }
+  }
+  std::vector<std::array<int, 3>> triangles;
+  for (const tinyobj::shape_t& shape : reader.GetShapes()) {
+    const auto& indices = shape.mesh.indices;
+    for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+      triangles.push_back({indices[i].vertex_index, indices[i + 1].vertex_index,
+                           indices[i + 2].vertex_index});
+    }
+  }
+  return triangles;
+}
+
+}  // namespace
+
+TriangleMesh LoadObjMesh(const std::string& path) {
+  const std::string text = ReadText(path);
+  const std::vector<double> coordinates = ReadVertices(path, text);
+  TriangleMesh mesh;
+  mesh.triangles = ReadTriangles(path, text);
+  if (mesh.triangles.empty()) throw SceneError(path + ": it has no faces");
+
+  const int num_vertices = static_cast<int>(coordinates.size() / 3);
+  std::vector<int> new_index(num_vertices, -1);
+  for (const std::array<int, 3>& triangle : mesh.triangles) {
+    for (int v : triangle) {
+      if (v < 0 || v >= num_vertices) {
+        throw SceneError(path + ": a face names vertex " + std::to_string(v + 1) +
+                         "; expected 1 to " + std::to_string(num_vertices));
+      }
+      new_index[v] = 0;
+    }
+  }
+  std::vector<double> used;
+  for (int v = 0; v < num_vertices; ++v) {
+    if (new_index[v] < 0) continue;
+    new_index[v] = static_cast<int>(used.size() / 3);
+    used.insert(used.end(), &coordinates[3 * v], &coordinates[3 * v] + 3);
+  }
+  mesh.positions = Eigen::Map<const Eigen::VectorXd>(used.data(), used.size());
+  for (std::array<int, 3>& triangle : mesh.triangles) {
+    for (int& v : triangle) v = new_index[v];
+  }
+  return mesh;
+}
+
+}  // namespace dpe
