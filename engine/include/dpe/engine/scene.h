@@ -92,8 +92,8 @@ struct Scene {
   int num_frames = 100;     // `optimizationIterations`: frames to fit
   int steps_per_frame = 1;  // `forwardSubSteps`
   bool print_times = false;
-  Eigen::Vector3d wind = Eigen::Vector3d::Zero();       // m/s
-  Eigen::Vector3d gravity = {0.0, -9.81, 0.0};          // m/s^2
+  Eigen::Vector3d wind = Eigen::Vector3d::Zero();  // m/s
+  Eigen::Vector3d gravity = {0.0, -9.81, 0.0};     // m/s^2
   AerodynamicsLaw aerodynamics = AerodynamicsLaw::kAuthored;
   std::string solver = "auto";
   bool estimate_wind = false;

@@ -27,7 +27,7 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 struct StateDerivative {
   int frame = 0;
   int object = 0;
-  int first_row = 0;  // rows first_row ... first_row + d_position.rows() - 1
+  int first_row = 0;      // rows first_row ... first_row + d_position.rows() - 1
   SparseRows d_position;  // rows x 3N
   SparseRows d_velocity;  // rows x 3N, or 0 x 0 if the rows do not depend on velocity
 };
@@ -47,7 +47,8 @@ class Sensitivity {
                            const std::vector<Eigen::MatrixXd>& dl_dv = {});
 
   // The change of all states for a change `dp` of the parameters, 3N x F per object.
-  void JacobianVectorProduct(const Eigen::VectorXd& dp, std::vector<Eigen::MatrixXd>* dx,
+  void JacobianVectorProduct(const Eigen::VectorXd& dp,
+                             std::vector<Eigen::MatrixXd>* dx,
                              std::vector<Eigen::MatrixXd>* dv);
 
   // The Jacobian of residual rows with respect to the parameters: rows accumulate over

@@ -69,8 +69,8 @@ class Simulator {
   const ParameterLayout& layout() const { return layout_; }
   bool is_simulated(int object) const { return systems_[object] != nullptr; }
 
-  // Simulates `num_frames` frames (states, the initial one included) with the scene's
-  // own parameter values.
+  // Simulates `num_frames` frames (states, the initial one included) with the current
+  // parameter values: the scene's own, until Run or StepResidual set others.
   Trajectory Simulate(int num_frames);
 
   // Simulates with `parameters` (layout order, SI units) in place of the scene's values
@@ -98,8 +98,10 @@ class Simulator {
  private:
   friend class Sensitivity;
   void SetParameters(const Eigen::VectorXd& parameters);
+  Trajectory RollOut(int num_frames, RolloutTape* tape);
 
-  Scene scene_;
+  Scene scene_;  // with the current parameter values
+  Eigen::VectorXd current_parameters_;
   SimulatorOptions options_;
   ParameterLayout layout_;
   std::vector<std::unique_ptr<ObjectSystem>> systems_;  // null: not simulated

@@ -1,0 +1,24 @@
+// The adjoint (backward) pass for one scalar: one sweep over the steps, last to first.
+#ifndef DPE_ENGINE_DERIVATIVES_GRADIENT_PASS_H_
+#define DPE_ENGINE_DERIVATIVES_GRADIENT_PASS_H_
+
+#include <Eigen/Core>
+
+#include "dpe/engine/simulator.h"
+#include "object_system.h"
+#include "rollout_tape.h"
+
+namespace dpe {
+
+// gradient (layout order) += dL/dp through one object.
+//
+// @param dl_dx, dl_dv  3N x F; 0 x 0 means no dependence
+// @return false if a step's adjoint system could not be solved
+bool AddObjectGradient(const Scene& scene, const SimulatorOptions& options,
+                       ObjectSystem* system, const ObjectTape& tape,
+                       const Eigen::MatrixXd& dl_dx, const Eigen::MatrixXd& dl_dv,
+                       Eigen::VectorXd* gradient);
+
+}  // namespace dpe
+
+#endif  // DPE_ENGINE_DERIVATIVES_GRADIENT_PASS_H_

@@ -1,0 +1,36 @@
+// Explicit and symplectic Euler: M v1 = M v0 + h f(x0, v0), and
+//   explicit:   x1 = x0 + h v0,
+//   symplectic: x1 = x0 + h v1.
+// They differ only in the velocity that moves the positions. Tangent: A = M, Rx = h K,
+// Rv = M + h D at (x0, v0).
+#ifndef DPE_ENGINE_INTEGRATORS_EXPLICIT_EULER_H_
+#define DPE_ENGINE_INTEGRATORS_EXPLICIT_EULER_H_
+
+#include <vector>
+
+#include "integrators/integrator.h"
+
+namespace dpe {
+
+class ExplicitEuler final : public Integrator {
+ public:
+  ExplicitEuler(const SimulatorOptions& options, bool symplectic)
+      : Integrator(options), symplectic_(symplectic) {}
+
+  StepOutcome Step(ObjectSystem* system, const StepStates& states, double* x1,
+                   double* v1) override;
+  bool AdjointStep(ObjectSystem* system, const StepStates& states,
+                   const StepAdjoint& adjoint) override;
+  void TangentStep(ObjectSystem* system, const StepStates& states,
+                   StepLinearization* out) override;
+  ForceState ExpansionPoint(const ObjectSystem& system,
+                            const StepStates& states) override;
+
+ private:
+  bool symplectic_;
+  std::vector<double> force_;
+};
+
+}  // namespace dpe
+
+#endif  // DPE_ENGINE_INTEGRATORS_EXPLICIT_EULER_H_

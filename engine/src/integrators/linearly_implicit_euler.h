@@ -1,0 +1,39 @@
+// Linearly implicit Euler (Baraff & Witkin 1998, equation 6): one Newton step of
+// implicit Euler from (x0, v0),
+//   (M - h D - h^2 K)(v1 - v0) = h (f(x0, v0) + h K v0),  x1 = x0 + h v1,
+// with K = df/dx, D = df/dv at (x0, v0).
+//
+// As a residual: r = M dv - h phi with dv = v1 - v0 and the expansion phi of f at
+// (x0, v0) along (h v1, dv). Its derivative holds second derivatives of the force:
+//   A = M - h D - h^2 K,  Rx = h dphi/dx,  Rv = M + h (dphi/dv - D);
+// Rv follows from dr/dv0 at fixed dv, r's dependence on v1 = v0 + dv, and dv1 = dv0 +
+// d(dv).
+#ifndef DPE_ENGINE_INTEGRATORS_LINEARLY_IMPLICIT_EULER_H_
+#define DPE_ENGINE_INTEGRATORS_LINEARLY_IMPLICIT_EULER_H_
+
+#include <vector>
+
+#include "integrators/integrator.h"
+
+namespace dpe {
+
+class LinearlyImplicitEuler final : public Integrator {
+ public:
+  using Integrator::Integrator;
+
+  StepOutcome Step(ObjectSystem* system, const StepStates& states, double* x1,
+                   double* v1) override;
+  bool AdjointStep(ObjectSystem* system, const StepStates& states,
+                   const StepAdjoint& adjoint) override;
+  void TangentStep(ObjectSystem* system, const StepStates& states,
+                   StepLinearization* out) override;
+  ForceState ExpansionPoint(const ObjectSystem& system,
+                            const StepStates& states) override;
+
+ private:
+  std::vector<double> direction_x_, direction_v_, force_, free_;
+};
+
+}  // namespace dpe
+
+#endif  // DPE_ENGINE_INTEGRATORS_LINEARLY_IMPLICIT_EULER_H_

@@ -1,0 +1,167 @@
+#include "linear/step_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dpe {
+namespace {
+
+constexpr int kRestart = 30;
+constexpr int kMaxCycles = 4;
+// The relative residual that counts as rounding level, and the one that is still
+// accepted when the iteration can get no further.
+constexpr double kTarget = 1e-15;
+constexpr double kAccept = 1e-12;
+
+using ConstVector = Eigen::Map<const Eigen::VectorXd>;
+using Vector = Eigen::Map<Eigen::VectorXd>;
+
+}  // namespace
+
+StepSolver::StepSolver(const BlockPattern& pattern)
+    : pattern_(pattern), values_(pattern.num_nonzeros()), cholesky_(pattern) {
+  work_.resize(pattern.num_rows());
+  residual_.resize(pattern.num_rows());
+}
+
+bool StepSolver::Factorize(bool symmetric) {
+  symmetric_ = symmetric;
+  has_lu_ = false;
+  const double* s = values_.data();
+  if (!symmetric) {
+    // Only the lower triangle of S is read.
+    symmetric_values_.resize(values_.size());
+    const std::vector<int>& mirror = pattern_.transposed_index();
+    for (size_t k = 0; k < values_.size(); ++k) {
+      symmetric_values_[k] = 0.5 * (values_[k] + values_[mirror[k]]);
+    }
+    s = symmetric_values_.data();
+  }
+  has_cholesky_ = cholesky_.Factorize(s);
+  return has_cholesky_ || FactorizeLu();
+}
+
+bool StepSolver::Solve(const double* b, double* z, bool transposed) {
+  if (has_lu_) return SolveByLu(b, z, transposed);
+  if (symmetric_) {
+    cholesky_.Solve(b, z);
+    return true;
+  }
+  if (SolveByGmres(b, z, transposed)) return true;
+  return FactorizeLu() && SolveByLu(b, z, transposed);
+}
+
+void StepSolver::Multiply(const double* x, double* y, bool transposed) const {
+  if (transposed) {
+    pattern_.MultiplyTransposed(values_.data(), x, y);
+  } else {
+    pattern_.Multiply(values_.data(), x, y);
+  }
+}
+
+bool StepSolver::SolveByGmres(const double* b, double* z, bool transposed) {
+  const int n = pattern_.num_rows();
+  const double scale = ConstVector(b, n).norm();
+  Vector(z, n).setZero();
+  if (scale == 0.0) return true;
+  if (!std::isfinite(scale)) return false;
+  Vector residual(residual_.data(), n);
+  residual = ConstVector(b, n);
+  double norm = scale;
+  for (int cycle = 0; cycle < kMaxCycles; ++cycle) {
+    GmresCycle(residual_.data(), norm, kTarget * scale, z, transposed);
+    Multiply(z, work_.data(), transposed);
+    residual = ConstVector(b, n) - ConstVector(work_.data(), n);
+    const double previous = norm;
+    norm = residual.norm();
+    if (norm <= kTarget * scale) return true;
+    // A second cycle corrects what rounding left in the first; when it gains little,
+    // rounding level is reached.
+    if (!(norm < 0.3 * previous)) break;
+  }
+  return norm <= kAccept * scale;
+}
+
+double StepSolver::GmresCycle(const double* residual, double norm, double target,
+                              double* z, bool transposed) {
+  const int n = pattern_.num_rows();
+  basis_.resize(static_cast<size_t>(kRestart + 1) * n);
+  double hessenberg[kRestart + 1][kRestart];
+  double cosine[kRestart], sine[kRestart], g[kRestart + 1];
+  const auto column = [&](int j) {
+    return Vector(basis_.data() + static_cast<size_t>(j) * n, n);
+  };
+  column(0) = ConstVector(residual, n) / norm;
+  g[0] = norm;
+  int used = 0;
+  for (int j = 0; j < kRestart; ++j) {
+    cholesky_.Solve(column(j).data(), work_.data());
+    Multiply(work_.data(), column(j + 1).data(), transposed);
+    for (int i = 0; i <= j; ++i) {
+      hessenberg[i][j] = column(i).dot(column(j + 1));
+      column(j + 1) -= hessenberg[i][j] * column(i);
+    }
+    const double height = column(j + 1).norm();
+    for (int i = 0; i < j; ++i) {
+      const double upper = hessenberg[i][j];
+      hessenberg[i][j] = cosine[i] * upper + sine[i] * hessenberg[i + 1][j];
+      hessenberg[i + 1][j] = cosine[i] * hessenberg[i + 1][j] - sine[i] * upper;
+    }
+    const double length = std::hypot(hessenberg[j][j], height);
+    if (!(length > 0.0) || !std::isfinite(length)) break;
+    cosine[j] = hessenberg[j][j] / length;
+    sine[j] = height / length;
+    hessenberg[j][j] = length;
+    g[j + 1] = -sine[j] * g[j];
+    g[j] *= cosine[j];
+    used = j + 1;
+    if (std::abs(g[j + 1]) <= target || height == 0.0) break;
+    column(j + 1) /= height;
+  }
+  // z += S^{-1} V y with H y = g.
+  double y[kRestart];
+  for (int i = used - 1; i >= 0; --i) {
+    y[i] = g[i];
+    for (int k = i + 1; k < used; ++k) y[i] -= hessenberg[i][k] * y[k];
+    y[i] /= hessenberg[i][i];
+  }
+  Vector work(work_.data(), n);
+  work.setZero();
+  for (int i = 0; i < used; ++i) work += y[i] * column(i);
+  cholesky_.Solve(work_.data(), work_.data());
+  Vector(z, n) += work;
+  return used > 0 ? std::abs(g[used]) : norm;
+}
+
+bool StepSolver::FactorizeLu() {
+  const int n = pattern_.num_rows();
+  if (!ConstVector(values_.data(), static_cast<int>(values_.size())).allFinite()) {
+    return false;
+  }
+  const Eigen::Map<const Eigen::SparseMatrix<double>> matrix(
+      n, n, pattern_.num_nonzeros(), pattern_.column_starts().data(),
+      pattern_.row_indices().data(), values_.data());
+  if (!lu_) {
+    lu_ = std::make_unique<SparseLU>();
+    lu_->analyzePattern(matrix);
+  }
+  lu_->factorize(matrix);
+  has_lu_ = lu_->info() == Eigen::Success;
+  return has_lu_;
+}
+
+bool StepSolver::SolveByLu(const double* b, double* z, bool transposed) {
+  const int n = pattern_.num_rows();
+  const auto solve = [&](const Eigen::VectorXd& right) -> Eigen::VectorXd {
+    if (transposed) return lu_->transpose().solve(right);
+    return lu_->solve(right);
+  };
+  const Eigen::VectorXd right = ConstVector(b, n);
+  Eigen::VectorXd solution = solve(right);
+  Multiply(solution.data(), work_.data(), transposed);
+  solution += solve(right - ConstVector(work_.data(), n));  // one refinement
+  Vector(z, n) = solution;
+  return solution.allFinite();
+}
+
+}  // namespace dpe

@@ -1,0 +1,150 @@
+#include "object_system.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "forces/collider.h"
+#include "forces/drag.h"
+#include "forces/gravity.h"
+#include "forces/spring.h"
+
+namespace dpe {
+
+ObjectSystem::ObjectSystem(const Scene& scene, int object,
+                           const ParameterLayout& layout)
+    : object_(object),
+      steps_per_frame_(scene.steps_per_frame),
+      paths_(scene.objects[object].prescribed_paths),
+      columns_(layout, object),
+      local_columns_(columns_.Compressed()) {
+  const ClothObject& cloth = scene.objects[object];
+  node_of_vertex_.assign(cloth.num_vertices(), -1);
+  for (int i = 0; i < cloth.num_vertices(); ++i) {
+    if (cloth.is_fixed[i]) {
+      fixed_vertices_.push_back(i);
+    } else {
+      node_of_vertex_[i] = static_cast<int>(free_vertices_.size());
+      free_vertices_.push_back(i);
+    }
+  }
+  SetParameters(scene);
+  AddForceTerms(scene, cloth);
+
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& term : terms_) term->AppendCouplings(&pairs);
+  for (auto& [a, b] : pairs) {
+    a = node_of_vertex_[a];
+    b = node_of_vertex_[b];
+  }
+  pattern_ = BlockPattern(static_cast<int>(free_vertices_.size()), pairs);
+  for (const auto& term : terms_) term->BindPattern(pattern_, node_of_vertex_);
+  for (int i = 0; i < pattern_.num_nodes(); ++i)
+    diagonal_.push_back(pattern_.Find(i, i));
+  solver_ = std::make_unique<StepSolver>(pattern_);
+}
+
+// The registration of force laws: a term exists only where the scene asks for it.
+void ObjectSystem::AddForceTerms(const Scene& scene, const ClothObject& cloth) {
+  const auto add = [this](auto kernel) {
+    if (kernel.elements.empty()) return;
+    terms_.push_back(
+        std::make_unique<ElementTerm<decltype(kernel)>>(std::move(kernel)));
+  };
+  add(GravityKernel(cloth, scene.gravity, &parameters_));
+  add(SpringKernel(cloth, &parameters_));
+  if (cloth.drag_coefficient != 0.0 || cloth.estimate_drag) {
+    add(DragKernel(cloth, scene.aerodynamics, &parameters_));
+  }
+  for (const Collider& collider : scene.colliders) add(ColliderKernel(cloth, collider));
+}
+
+void ObjectSystem::SetParameters(const Scene& scene) {
+  const ClothObject& cloth = scene.objects[object_];
+  parameters_.mass = cloth.mass;
+  parameters_.stiffness = cloth.stiffness;
+  parameters_.damping = cloth.damping;
+  parameters_.drag_coefficient = cloth.drag_coefficient;
+  parameters_.wind = scene.wind;
+  initial_positions_ = cloth.positions;
+  initial_velocities_ = cloth.velocities;
+  SetPrescribedPositions(0, initial_positions_.data());
+  for (int i : fixed_vertices_) initial_velocities_.segment<3>(3 * i).setZero();
+}
+
+void ObjectSystem::SetPrescribedPositions(int step, double* x) const {
+  for (const PrescribedPath& path : paths_) {
+    const int last = static_cast<int>(path.positions.cols()) - 1;
+    const int frame = std::min(step / steps_per_frame_, last);
+    const double fraction =
+        frame == last ? 0.0
+                      : static_cast<double>(step % steps_per_frame_) / steps_per_frame_;
+    Eigen::Map<Eigen::Vector3d> point(x + 3 * path.vertex);
+    point = path.positions.col(frame);
+    if (fraction > 0.0) {
+      point += fraction * (path.positions.col(frame + 1) - path.positions.col(frame));
+    }
+  }
+}
+
+void ObjectSystem::SetPrescribedVelocities(double h, const double* x0, const double* x1,
+                                           double* v) const {
+  for (int i : fixed_vertices_) {
+    for (int c = 3 * i; c < 3 * i + 3; ++c) v[c] = (x1[c] - x0[c]) / h;
+  }
+}
+
+void ObjectSystem::Force(const ForceState& state, double* force) const {
+  std::fill(force, force + num_coordinates(), 0.0);
+  for (const auto& term : terms_) term->AddForce(state, force);
+  for (int i : fixed_vertices_) std::fill(force + 3 * i, force + 3 * i + 3, 0.0);
+}
+
+void ObjectSystem::AddJacobian(const ForceState& state, double cx, double cv,
+                               VelocityPart part, double* values) const {
+  for (const auto& term : terms_) term->AddJacobian(state, cx, cv, part, values);
+}
+
+void ObjectSystem::AddMass(double* values) const {
+  for (int node = 0; node < pattern_.num_nodes(); ++node) {
+    const double m = parameters_.mass[free_vertices_[node]];
+    const BlockSlot& slot = diagonal_[node];
+    for (int c = 0; c < 3; ++c) values[slot.offset + c * slot.stride + c] += m;
+  }
+}
+
+void ObjectSystem::AddAdjoint(const ForceState& state, const double* lambda, double c,
+                              VelocityPart part, double* gx, double* gv) const {
+  for (const auto& term : terms_) term->AddAdjoint(state, lambda, c, part, gx, gv);
+}
+
+void ObjectSystem::VisitStepParameters(const ForceState& state, double h,
+                                       const double* dv, ParameterSink* sink) const {
+  sink->set_scale(h);
+  for (const auto& term : terms_) term->VisitParameters(state, sink);
+  if (!sink->Wants(ParameterKind::kMass)) return;
+  sink->set_scale(1.0);
+  const double weight = 1.0;
+  for (int i : free_vertices_) {
+    const Eigen::Vector3d d = -Eigen::Map<const Eigen::Vector3d>(dv + 3 * i);
+    sink->Add(ParameterKind::kMass, i, d, &i, &weight, 1);
+  }
+}
+
+bool ObjectSystem::IsSymmetric() const {
+  return std::all_of(terms_.begin(), terms_.end(),
+                     [](const auto& term) { return term->IsSymmetric(); });
+}
+
+void ObjectSystem::GatherFree(const double* full, double* free) const {
+  for (int i : free_vertices_) {
+    for (int c = 0; c < 3; ++c) *free++ = full[3 * i + c];
+  }
+}
+
+void ObjectSystem::ScatterFree(const double* free, double* full) const {
+  for (int i : free_vertices_) {
+    for (int c = 0; c < 3; ++c) full[3 * i + c] = *free++;
+  }
+}
+
+}  // namespace dpe

@@ -1,0 +1,90 @@
+// The system of equations of one object: which vertices are unknowns, which forces act,
+// the sparsity of its step matrix, and the evaluations that integrators are built from.
+// Nothing couples objects, so each is solved on its own.
+//
+// All state arrays hold 3N doubles for all N vertices; only linear systems are reduced
+// to the free ones ("nodes").
+#ifndef DPE_ENGINE_OBJECT_SYSTEM_H_
+#define DPE_ENGINE_OBJECT_SYSTEM_H_
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "dpe/engine/parameters.h"
+#include "dpe/engine/scene.h"
+#include "forces/force_term.h"
+#include "forces/parameter_sink.h"
+#include "linear/block_pattern.h"
+#include "linear/step_solver.h"
+
+namespace dpe {
+
+class ObjectSystem {
+ public:
+  ObjectSystem(const Scene& scene, int object, const ParameterLayout& layout);
+  ObjectSystem(const ObjectSystem&) = delete;
+  ObjectSystem& operator=(const ObjectSystem&) = delete;
+
+  int num_vertices() const { return static_cast<int>(node_of_vertex_.size()); }
+  int num_coordinates() const { return 3 * num_vertices(); }
+  const std::vector<int>& free_vertices() const { return free_vertices_; }
+  const std::vector<int>& node_of_vertex() const { return node_of_vertex_; }
+  const BlockPattern& pattern() const { return pattern_; }
+  StepSolver& solver() { return *solver_; }
+
+  const ObjectParameters& parameters() const { return parameters_; }
+  // Columns of this object's parameters in the layout, and the same renumbered from 0.
+  const ParameterColumns& columns() const { return columns_; }
+  const ParameterColumns& local_columns() const { return local_columns_; }
+
+  // Takes this object's values out of `scene` (which holds the current parameters).
+  void SetParameters(const Scene& scene);
+  const Eigen::VectorXd& initial_positions() const { return initial_positions_; }
+  const Eigen::VectorXd& initial_velocities() const { return initial_velocities_; }
+
+  // Positions of the fixed vertices after `step` steps of the rollout, written into x.
+  void SetPrescribedPositions(int step, double* x) const;
+  // v at fixed vertices := (x1 - x0) / h, the prescribed velocity over a step.
+  void SetPrescribedVelocities(double h, const double* x0, const double* x1,
+                               double* v) const;
+
+  // force := phi (see force_term.h); entries of fixed vertices are set to 0.
+  void Force(const ForceState& state, double* force) const;
+  // values += cx dphi/dx + cv dphi/dv.
+  void AddJacobian(const ForceState& state, double cx, double cv, VelocityPart part,
+                   double* values) const;
+  // values += M.
+  void AddMass(double* values) const;
+  // gx += c (dphi/dx)^T lambda, gv += c (dphi/dv)^T lambda.
+  void AddAdjoint(const ForceState& state, const double* lambda, double c,
+                  VelocityPart part, double* gx, double* gv) const;
+  // Reports -dr/dp of the step residual r = M dv - h phi: h dphi/dp - (dM/dp) dv.
+  void VisitStepParameters(const ForceState& state, double h, const double* dv,
+                           ParameterSink* sink) const;
+  // True if df/dx and df/dv are symmetric at the current parameters.
+  bool IsSymmetric() const;
+
+  // Between 3N arrays and the unknowns.
+  void GatherFree(const double* full, double* free) const;
+  void ScatterFree(const double* free, double* full) const;
+
+ private:
+  void AddForceTerms(const Scene& scene, const ClothObject& object);
+
+  int object_;
+  int steps_per_frame_;
+  std::vector<int> free_vertices_, fixed_vertices_, node_of_vertex_;
+  ObjectParameters parameters_;
+  Eigen::VectorXd initial_positions_, initial_velocities_;
+  std::vector<PrescribedPath> paths_;
+  std::vector<std::unique_ptr<ForceTerm>> terms_;
+  ParameterColumns columns_, local_columns_;
+  BlockPattern pattern_;
+  std::vector<BlockSlot> diagonal_;
+  std::unique_ptr<StepSolver> solver_;
+};
+
+}  // namespace dpe
+
+#endif  // DPE_ENGINE_OBJECT_SYSTEM_H_
