@@ -1,0 +1,144 @@
+// Adjoint, tangent and central differences of whole rollouts agree, for every
+// integrator, scene and kind of parameter.
+#include "dpe/engine/sensitivity.h"
+
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "dpe/engine/simulator.h"
+#include "support/derivative_checker.h"
+#include "support/test_scenes.h"
+
+namespace dpe::test {
+namespace {
+
+using Case = std::tuple<IntegrationMethod, std::string, int>;
+
+// All positions and velocities of all frames in one vector.
+Eigen::VectorXd Flatten(const std::vector<Eigen::MatrixXd>& x,
+                        const std::vector<Eigen::MatrixXd>& v) {
+  Eigen::Index size = 0;
+  for (const auto* states : {&x, &v}) {
+    for (const Eigen::MatrixXd& m : *states) size += m.size();
+  }
+  Eigen::VectorXd result(size);
+  Eigen::Index offset = 0;
+  for (const auto* states : {&x, &v}) {
+    for (const Eigen::MatrixXd& m : *states) {
+      result.segment(offset, m.size()) = m.reshaped();
+      offset += m.size();
+    }
+  }
+  return result;
+}
+
+Eigen::VectorXd Flatten(const Trajectory& t) {
+  return Flatten(t.positions, t.velocities);
+}
+
+// The inverse of Flatten for the shape of `like`.
+void Unflatten(const Eigen::VectorXd& flat, const Trajectory& like,
+               std::vector<Eigen::MatrixXd>* x, std::vector<Eigen::MatrixXd>* v) {
+  *x = like.positions;
+  *v = like.velocities;
+  Eigen::Index offset = 0;
+  for (auto* states : {x, v}) {
+    for (Eigen::MatrixXd& m : *states) {
+      m.reshaped() = flat.segment(offset, m.size());
+      offset += m.size();
+    }
+  }
+}
+
+// The presets at their own time step, except for the explicit methods, which are not
+// stable there.
+Scene MakeScene(IntegrationMethod method, const std::string& name, ParameterMode mode,
+                int resolution) {
+  Scene scene = MakeDerivativeScene(name, resolution);
+  scene.integration_method = method;
+  if (method == IntegrationMethod::kExplicitEuler ||
+      method == IntegrationMethod::kSymplecticEuler) {
+    scene.delta = 0.002;
+    scene.steps_per_frame = 2;
+  } else if (name == "two_objects") {
+    scene.steps_per_frame = 2;
+  }
+  Perturb(7, &scene);
+  EstimateEverything(mode, &scene);
+  return scene;
+}
+
+std::string CaseName(const testing::TestParamInfo<Case>& info) {
+  return IntegrationMethodName(std::get<0>(info.param)) + "_" +
+         std::get<1>(info.param) + "_" + std::to_string(std::get<2>(info.param));
+}
+
+class SensitivityTest : public testing::TestWithParam<Case> {};
+
+TEST_P(SensitivityTest, AdjointTangentAndDifferencesAgree) {
+  const auto [method, name, num_frames] = GetParam();
+  const Scene scene = MakeScene(method, name, ParameterMode::kLocal, 12);
+  Simulator simulator(scene);
+  const ParameterLayout& layout = simulator.layout();
+  const Eigen::VectorXd p = layout.Extract(scene);
+  const int frames = num_frames;
+  const auto flat_rollout = [&](const Eigen::VectorXd& parameters) {
+    const Rollout rollout = simulator.Run(parameters, frames);
+    EXPECT_TRUE(rollout.status().ok()) << rollout.status().Message();
+    return Flatten(rollout.trajectory());
+  };
+  const Rollout rollout = simulator.Run(p, frames);
+  ASSERT_TRUE(rollout.status().ok()) << rollout.status().Message();
+
+  // A random functional of all states, and its gradient by the adjoint.
+  const Eigen::VectorXd mu =
+      RandomVector(static_cast<int>(Flatten(rollout.trajectory()).size()), 11);
+  std::vector<Eigen::MatrixXd> mu_x, mu_v;
+  Unflatten(mu, rollout.trajectory(), &mu_x, &mu_v);
+  Sensitivity sensitivity(&simulator, &rollout);
+  const Eigen::VectorXd gradient = sensitivity.Gradient(mu_x, mu_v);
+
+  for (const ParameterBlock& block : layout.blocks()) {
+    SCOPED_TRACE(ParameterKindName(block.kind) + " of object " +
+                 std::to_string(block.object));
+    Eigen::VectorXd dp = Eigen::VectorXd::Zero(p.size());
+    for (int i = block.offset; i < block.offset + block.size; ++i) {
+      dp[i] = ParameterKindIsPositive(block.kind) ? p[i] : 1.0;
+    }
+    dp.segment(block.offset, block.size).array() *=
+        RandomVector(block.size, 100 + block.offset).array();
+    std::vector<Eigen::MatrixXd> dx, dv;
+    Sensitivity(&simulator, &rollout).JacobianVectorProduct(dp, &dx, &dv);
+    const Eigen::VectorXd tangent = Flatten(dx, dv);
+    ASSERT_GT(tangent.norm(), 0.0);
+
+    const DerivativeCheck check =
+        CheckDirectionalDerivative(flat_rollout, p, dp, tangent);
+    EXPECT_LT(check.relative_error, 1e-6) << check;
+    const double scale = mu.norm() * tangent.norm();
+    EXPECT_NEAR(gradient.dot(dp), mu.dot(tangent), 1e-10 * scale);
+    // The same identity relative to the product itself, where it is not small by
+    // accident.
+    if (std::abs(mu.dot(tangent)) > 1e-2 * scale) {
+      EXPECT_NEAR(gradient.dot(dp) / mu.dot(tangent), 1.0, 1e-10);
+    }
+    // A derivative that is off by one part in a thousand is caught.
+    const DerivativeCheck poisoned =
+        CheckDirectionalDerivative(flat_rollout, p, dp, 1.001 * tangent, {1e-5});
+    EXPECT_GT(poisoned.relative_error, 5e-4);
+  }
+  EXPECT_TRUE(sensitivity.ok());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SensitivityTest,
+    testing::Combine(testing::Values(IntegrationMethod::kExplicitEuler,
+                                     IntegrationMethod::kSymplecticEuler,
+                                     IntegrationMethod::kLinearlyImplicitEuler,
+                                     IntegrationMethod::kImplicitEuler),
+                     testing::ValuesIn(DerivativeSceneNames()), testing::Values(5, 50)),
+    CaseName);
+
+}  // namespace
+}  // namespace dpe::test
