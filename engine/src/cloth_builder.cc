@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "io/number_text.h"
+
 namespace dpe {
 namespace {
 
@@ -28,7 +30,7 @@ Eigen::Vector3d Point(const Eigen::VectorXd& positions, int vertex) {
 
 void RequireNotNegative(const char* what, double value) {
   if (std::isfinite(value) && value >= 0.0) return;
-  throw SceneError(std::string("cloth: ") + what + " " + std::to_string(value) +
+  throw SceneError(std::string("cloth: ") + what + " " + NumberText(value) +
                    " is not accepted; expected a finite number >= 0");
 }
 
@@ -41,7 +43,7 @@ void CheckMaterial(const ClothMaterial& material) {
   RequireNotNegative("damping", material.damping);
   RequireNotNegative("drag coefficient", material.drag_coefficient);
   if (!(material.density > 0.0) || !std::isfinite(material.density)) {
-    throw SceneError("cloth: density " + std::to_string(material.density) +
+    throw SceneError("cloth: density " + NumberText(material.density) +
                      " is not accepted; expected a finite number > 0 (kg/m^2)");
   }
 }
@@ -155,7 +157,7 @@ TriangleMesh MakeGrid(int rows, int cols, double size, GridPlane plane) {
                      std::to_string(kMaxVertices) + " vertices");
   }
   if (!(size > 0.0) || !std::isfinite(size)) {
-    throw SceneError("grid: size " + std::to_string(size) +
+    throw SceneError("grid: size " + NumberText(size) +
                      " is not accepted; expected a finite number > 0 (m)");
   }
   TriangleMesh mesh;

@@ -1,10 +1,12 @@
-// Pins and random fields: what makes one cloth of a shape differ from another.
+// Pins, obstacles and random fields: what makes one cloth of a shape differ from
+// another.
 #include <cmath>
 #include <cstdint>
 #include <random>
 #include <string>
 
 #include "dpe/engine/cloth_builder.h"
+#include "io/number_text.h"
 
 namespace dpe {
 namespace {
@@ -69,14 +71,22 @@ void PinVertices(const std::vector<int>& vertices, ClothObject* cloth) {
 
 void UnpinAll(ClothObject* cloth) { cloth->is_fixed.assign(cloth->is_fixed.size(), 0); }
 
+Collider SphereCollider(const Eigen::Vector3d& center, double radius) {
+  Collider collider;
+  collider.type = ColliderType::kSphere;
+  collider.position = center;
+  collider.scale.setConstant(2.0 * radius);
+  return collider;
+}
+
 Eigen::VectorXd SmoothRandomField(const Eigen::Matrix3Xd& points, double sigma,
                                   double wave_length, std::uint32_t seed) {
   if (!(sigma >= 0.0) || !std::isfinite(sigma)) {
-    throw SceneError("random field: sigma " + std::to_string(sigma) +
+    throw SceneError("random field: sigma " + NumberText(sigma) +
                      " is not accepted; expected a finite number >= 0");
   }
   if (!(wave_length > 0.0) || !std::isfinite(wave_length)) {
-    throw SceneError("random field: wave length " + std::to_string(wave_length) +
+    throw SceneError("random field: wave length " + NumberText(wave_length) +
                      " is not accepted; expected a finite number > 0 (m)");
   }
   constexpr int kWaves = 8;

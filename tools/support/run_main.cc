@@ -2,7 +2,7 @@
 
 #include <gflags/gflags.h>
 
-#include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -45,6 +45,21 @@ std::string Wrap(const std::string& text, const std::string& indent, size_t widt
   return result + line + "\n";
 }
 
+// "0.1" rather than the 17 digits that gflags gives.
+std::string DefaultText(const gflags::CommandLineFlagInfo& flag) {
+  if (flag.type == "string") {
+    return flag.default_value.empty() ? "" : ", default \"" + flag.default_value + '"';
+  }
+  std::ostringstream text;
+  text << ", default ";
+  if (flag.type == "double") {
+    text << std::strtod(flag.default_value.c_str(), nullptr);
+  } else {
+    text << flag.default_value;
+  }
+  return text.str();
+}
+
 void PrintHelp(const Program& program) {
   std::cout << Wrap(program.summary, "", 80) << "\nUsage: "
             << Wrap(program.name + " " + program.usage, "       ", 80).substr(7)
@@ -53,14 +68,8 @@ void PrintHelp(const Program& program) {
   gflags::GetAllFlags(&flags);
   for (const gflags::CommandLineFlagInfo& flag : flags) {
     if (!IsOwnFlag(program, flag)) continue;
-    std::cout << "  --" << flag.name << " (" << flag.type;
-    const bool is_text = flag.type == "string";
-    if (!is_text) {
-      std::cout << ", default " << flag.default_value;
-    } else if (!flag.default_value.empty()) {
-      std::cout << ", default \"" << flag.default_value << '"';
-    }
-    std::cout << ")\n" << Wrap(flag.description, "      ", 80);
+    std::cout << "  --" << flag.name << " (" << flag.type << DefaultText(flag) << ")\n"
+              << Wrap(flag.description, "      ", 80);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "io/json_document.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -8,6 +9,14 @@
 
 namespace dpe {
 namespace {
+
+std::string LineAndColumn(const std::string& text, size_t position) {
+  const std::string_view read(text.data(), std::min(position, text.size()));
+  const auto line = 1 + std::count(read.begin(), read.end(), '\n');
+  const size_t line_begin = read.rfind('\n') + 1;  // 0 in the first line
+  return "line " + std::to_string(line) + ", column " +
+         std::to_string(read.size() - line_begin);
+}
 
 // Builds the document and knows at every moment which JSON path is being read: the
 // library's own builder does not tell, and takes the last of two equal keys silently.
@@ -117,18 +126,10 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
     if (message.rfind("line ", 0) == 0) {
       message = "not JSON: " + message;
     } else {
-      const auto begin = text_.begin();
-      const auto end = begin + std::min(position, text_.size());
-      const auto line = 1 + std::count(begin, end, '\n');
-      const size_t last_break = text_.rfind('\n', end - begin - (end > begin));
-      const size_t column =
-          (end - begin) -
-          (last_break == std::string::npos || line == 1 ? 0 : last_break + 1);
-      message = "line " + std::to_string(line) + ", column " + std::to_string(column) +
-                ": " + message + "; expected a finite number";
+      message = LineAndColumn(text_, position) + ": " + message +
+                "; expected a finite number";
     }
-    constexpr size_t kMaxLength =
-        300;  // an unclosed string runs to the end of the file
+    constexpr size_t kMaxLength = 300;  // an unclosed string runs to the file's end
     for (char& c : message) {
       if (static_cast<signed char>(c) < ' ') c = '?';  // a binary file's bytes
     }

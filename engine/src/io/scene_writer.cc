@@ -39,6 +39,16 @@ std::string Array(long size, TextOf text) {
   return result + "]";
 }
 
+// The same with one element per line.
+template <typename TextOf>
+std::string Lines(long size, const std::string& indent, TextOf text) {
+  std::string result = "[";
+  for (long i = 0; i < size; ++i) {
+    result += (i > 0 ? ",\n" : "\n") + indent + "  " + text(i);
+  }
+  return result + (size > 0 ? "\n" + indent : "") + "]";
+}
+
 template <typename Container>
 std::string Array(const Container& values) {
   return Array(static_cast<long>(values.size()),
@@ -174,11 +184,10 @@ std::string SceneToJson(const Scene& scene) {
   }
   if (scene.solver != defaults.solver) members.Add("solver", Text(scene.solver));
   if (scene.estimate_wind) members.Add("estimate", FlagsText({{"wind", true}}));
-  members.Add("objects", Array(scene.objects.size(), [&](long i) {
-                return "\n    " + ObjectText(scene.objects[i]);
-              }));
-  members.Add("colliders", Array(scene.colliders.size(), [&](long i) {
-                return "\n    " + ColliderText(scene.colliders[i]);
+  members.Add("objects", Lines(scene.objects.size(), "  ",
+                               [&](long i) { return ObjectText(scene.objects[i]); }));
+  members.Add("colliders", Lines(scene.colliders.size(), "  ", [&](long i) {
+                return ColliderText(scene.colliders[i]);
               }));
   return members.Close() + "\n";
 }

@@ -73,6 +73,9 @@ void PinVertices(const std::vector<int>& vertices, ClothObject* cloth);
 // Makes all vertices free.
 void UnpinAll(ClothObject* cloth);
 
+// A sphere to collide with. @param radius  m
+Collider SphereCollider(const Eigen::Vector3d& center, double radius);
+
 // A smooth random field over vertices or spring midpoints: exp(s z), with z a sum of a
 // few random cosine waves, zero mean and unit variance over the points. The same seed
 // gives the same field with every compiler and standard library.
