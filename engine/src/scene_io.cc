@@ -7,7 +7,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "io/json_document.h"
+#include "io/json_io.h"
 #include "io/json_node.h"
 #include "io/scene_reader.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/json_document.h"
+#include "io/json_io.h"
 
 namespace dpe {
 

@@ -6,7 +6,7 @@
 
 #include "dpe/engine/scene_io.h"
 #include "io/enum_names.h"
-#include "io/json_document.h"
+#include "io/json_io.h"
 #include "io/number_text.h"
 
 namespace dpe {

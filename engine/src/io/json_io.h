@@ -1,6 +1,6 @@
 // JSON text to a document, with errors that say where in the text they are.
-#ifndef DPE_ENGINE_SRC_IO_JSON_DOCUMENT_H_
-#define DPE_ENGINE_SRC_IO_JSON_DOCUMENT_H_
+#ifndef DPE_ENGINE_SRC_IO_JSON_IO_H_
+#define DPE_ENGINE_SRC_IO_JSON_IO_H_
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,4 +18,4 @@ Json ParseJsonDocument(const std::string& text, const std::string& name);
 
 }  // namespace dpe
 
-#endif  // DPE_ENGINE_SRC_IO_JSON_DOCUMENT_H_
+#endif  // DPE_ENGINE_SRC_IO_JSON_IO_H_

@@ -1,4 +1,4 @@
-#include "io/json_document.h"
+#include "io/json_io.h"
 
 #include <algorithm>
 #include <string_view>
