@@ -13,8 +13,8 @@
 namespace dpe {
 namespace {
 
-// Keeps every index of the scene, three per vertex and two per spring, within an int.
-constexpr std::int64_t kMaxVertices = 10'000'000;
+// More than a scene file can hold, and a typing error: 1000 x 1000 is a large cloth.
+constexpr std::int64_t kMaxVertices = 1'000'000;
 
 // The edge rule: one record per pair of vertices that some triangle connects.
 struct Edge {

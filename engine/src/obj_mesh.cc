@@ -5,28 +5,15 @@
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <iterator>
+#include <sstream>
 
 #include "dpe/engine/cloth_builder.h"
+#include "io/text_file.h"
 
 namespace dpe {
 namespace {
-
-std::string ReadText(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(stream)),
-                   std::istreambuf_iterator<char>());
-  // Opening a folder succeeds, reading it does not.
-  if (!stream.is_open() || stream.bad()) {
-    throw SceneError(path + ": cannot be read: " + std::strerror(errno));
-  }
-  return text;
-}
 
 // The loader takes a coordinate that is not a number for zero, so the lines of the
 // vertices are read here, with their line number.
@@ -84,7 +71,7 @@ std::vector<std::array<int, 3>> ReadTriangles(const std::string& path,
 }  // namespace
 
 TriangleMesh LoadObjMesh(const std::string& path) {
-  const std::string text = ReadText(path);
+  const std::string text = ReadTextFile(path, "an OBJ file");
   const std::vector<double> coordinates = ReadVertices(path, text);
   TriangleMesh mesh;
   mesh.triangles = ReadTriangles(path, text);

@@ -92,7 +92,7 @@ TEST(ObjMesh, RefusesFilesThatAreNoMesh) {
     FAIL() << "a file that does not exist was accepted";
   } catch (const SceneError& error) {
     EXPECT_THAT(error.what(), AllOf(StartsWith(folder.File("absent.obj")),
-                                    HasSubstr("No such file or directory")));
+                                    HasSubstr("expected an OBJ file")));
   }
 }
 

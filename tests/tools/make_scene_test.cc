@@ -120,7 +120,7 @@ TEST_F(MakeSceneTest, BadFlagsAreRefusedAndNothingIsWritten) {
       {"--preset=sides", "side, corners, flag, flag_no_wind"},
       {"--rows=1", "at least 2"},
       {"--rows=abc", "illegal value 'abc'"},
-      {"--rows=100000", "at most"},
+      {"--rows=1000000", "at most"},
       {"--size=-1", "size -1.0"},
       {"--density=0", "density 0.0"},
       {"--delta=nan", "delta: nan"},
