@@ -42,7 +42,7 @@ Scene TwoObjectScene(const PresetOptions& options) {
   path.positions.resize(3, 4);
   for (int f = 0; f < 4; ++f) {
     path.positions.col(f) =
-        second.positions.head<3>() + f * Eigen::Vector3d(0.01, 0.02, -0.01);
+        second.positions.head<3>() + f * Eigen::Vector3d(0.001, 0.002, -0.001);
   }
   second.prescribed_paths.push_back(path);
   second.damping = 0.3;

@@ -68,9 +68,10 @@ void ColliderKernel::Expand(int /*e*/, const ElementInput<1>& in,
   const double rate = u.dot(in.dq[0]);
   const Eigen::Vector3d turn = turn_of_d * in.dq[0];
   const Eigen::Matrix3d u_turn = u * turn.transpose();
+  const Eigen::Matrix3d turn_of_d2 =
+      -(rate * turn_of_d + u_turn + u_turn.transpose()) / length;
   out->dq[0] += stiffness_ *
-                (-depth * (rate * turn_of_d + (u_turn + u_turn.transpose()) / length) -
-                 rate * turn_of_d - u_turn - u_turn.transpose());
+                (depth * turn_of_d2 - rate * turn_of_d - u_turn - u_turn.transpose());
 }
 
 }  // namespace dpe

@@ -53,7 +53,7 @@ void SpringKernel::Expand(int e, const ElementInput<1>& in, Expansion<1>* out) c
   const double tension_rate = stretch_rate + beta * (turn.dot(w) + u.dot(in.du));
   const Eigen::Matrix3d u_turn = u * turn.transpose();
   const Eigen::Matrix3d turn_of_d2 =
-      -(stretch_rate * turn_of_d + (u_turn + u_turn.transpose()) / length);
+      -(stretch_rate * turn_of_d + u_turn + u_turn.transpose()) / length;
   out->dq[0] =
       -k * ((u + turn) * (u + beta * (turn_of_d * w)).transpose() +
             tension * (turn_of_d + turn_of_d2) +

@@ -9,7 +9,7 @@
 //   du = P dd / l,  da = u . dd,  dc = du . w + u . dw,
 //   phi = g - (da + beta dc) u - (a + beta c) du.
 // Its derivatives, with U = P / l (derivative of u) and
-//   V = -((da / l) P + u du^T + du u^T) / l (derivative of du):
+//   V = -(da U + u du^T + du u^T) / l (derivative of du):
 //   dphi/dd = -(u + du)(u + beta U w)^T - (a + beta c)(U + V)
 //             - u (du + beta (V w + U dw))^T - (da + beta dc) U,
 //   dphi/dw = -beta ((u + du) u^T + u du^T).

@@ -48,7 +48,7 @@ bool StepSolver::Solve(const double* b, double* z, bool transposed) {
     return true;
   }
   if (SolveByGmres(b, z, transposed)) return true;
-  return FactorizeLu() && SolveByLu(b, z, transposed);
+  return FactorizeLu() && SolveByLu(right_.data(), z, transposed);
 }
 
 void StepSolver::Multiply(const double* x, double* y, bool transposed) const {
@@ -61,17 +61,19 @@ void StepSolver::Multiply(const double* x, double* y, bool transposed) const {
 
 bool StepSolver::SolveByGmres(const double* b, double* z, bool transposed) {
   const int n = pattern_.num_rows();
-  const double scale = ConstVector(b, n).norm();
+  right_.assign(b, b + n);  // b and z may be the same array
+  const ConstVector right(right_.data(), n);
+  const double scale = right.norm();
   Vector(z, n).setZero();
   if (scale == 0.0) return true;
   if (!std::isfinite(scale)) return false;
   Vector residual(residual_.data(), n);
-  residual = ConstVector(b, n);
+  residual = right;
   double norm = scale;
   for (int cycle = 0; cycle < kMaxCycles; ++cycle) {
     GmresCycle(residual_.data(), norm, kTarget * scale, z, transposed);
     Multiply(z, work_.data(), transposed);
-    residual = ConstVector(b, n) - ConstVector(work_.data(), n);
+    residual = right - ConstVector(work_.data(), n);
     const double previous = norm;
     norm = residual.norm();
     if (norm <= kTarget * scale) return true;

@@ -34,8 +34,8 @@ class StepSolver {
   // @return           false if the matrix is singular or not finite
   bool Factorize(bool symmetric);
 
-  // z = A^{-1} b, or A^{-T} b if `transposed`. False if that cannot be solved to
-  // rounding level.
+  // z = A^{-1} b, or A^{-T} b if `transposed`; b and z may be the same array. False if
+  // that cannot be solved to rounding level.
   bool Solve(const double* b, double* z, bool transposed);
 
  private:
@@ -57,7 +57,7 @@ class StepSolver {
   bool has_cholesky_ = false;
   std::unique_ptr<SparseLU> lu_;  // last resort
   bool has_lu_ = false;
-  std::vector<double> basis_, work_, residual_;
+  std::vector<double> basis_, work_, residual_, right_;
 };
 
 }  // namespace dpe

@@ -1,0 +1,197 @@
+// Physical identities of rollouts, and the order of accuracy of each integrator.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dpe/engine/cloth_builder.h"
+#include "dpe/engine/simulator.h"
+#include "support/test_scenes.h"
+
+namespace dpe::test {
+namespace {
+
+const IntegrationMethod kMethods[] = {
+    IntegrationMethod::kExplicitEuler, IntegrationMethod::kSymplecticEuler,
+    IntegrationMethod::kLinearlyImplicitEuler, IntegrationMethod::kImplicitEuler};
+
+class RolloutTest : public testing::TestWithParam<IntegrationMethod> {};
+
+Trajectory MustSimulate(const Scene& scene, int num_frames) {
+  const Trajectory trajectory = Simulator(scene).Simulate(num_frames);
+  EXPECT_TRUE(trajectory.status.ok()) << trajectory.status.Message();
+  return trajectory;
+}
+
+// A smooth motion: a small cloth swings from one edge.
+Scene SmoothScene(IntegrationMethod method) {
+  PresetOptions options;
+  options.rows = options.cols = 4;
+  options.size = 2.0;
+  Scene scene = MakePresetScene(ScenePreset::kSide, options);
+  scene.integration_method = method;
+  scene.wind = {1.0, 0.0, 0.5};
+  return scene;
+}
+
+TEST_P(RolloutTest, FirstOrderWhenDeltaIsHalved) {
+  // The reference is at delta / 64 of the coarser step, and its own first-order error
+  // is taken out by extrapolation with delta / 32.
+  Scene scene = SmoothScene(GetParam());
+  const double end = 0.2;
+  const double delta = 0.004;
+  const auto final_state = [&](double step) {
+    scene.delta = step;
+    return MustSimulate(scene, static_cast<int>(std::lround(end / step)) + 1)
+        .positions[0]
+        .rightCols<1>()
+        .eval();
+  };
+  const Eigen::VectorXd fine = final_state(delta / 64);
+  const Eigen::VectorXd reference = 2.0 * fine - final_state(delta / 32);
+  const double coarse_error = (final_state(delta) - reference).norm();
+  const double half_error = (final_state(delta / 2) - reference).norm();
+  const double quarter_error = (final_state(delta / 4) - reference).norm();
+  EXPECT_NEAR(std::log2(coarse_error / half_error), 1.0, 0.1);
+  EXPECT_NEAR(std::log2(half_error / quarter_error), 1.0, 0.1);
+  EXPECT_GT(quarter_error, 1e-8);
+}
+
+TEST_P(RolloutTest, ScalingMassAndStiffnessLeavesTheMotionUnchanged) {
+  Scene scene = MakeDerivativeScene("side", 5);
+  scene.integration_method = GetParam();
+  scene.delta = 0.004;
+  Perturb(1, &scene);
+  scene.objects[0].drag_coefficient = 0.0;
+  const Trajectory first = MustSimulate(scene, 40);
+  scene.objects[0].mass *= 8.0;
+  scene.objects[0].stiffness *= 8.0;
+  const Trajectory second = MustSimulate(scene, 40);
+  EXPECT_LT((first.positions[0] - second.positions[0]).cwiseAbs().maxCoeff(), 1e-10);
+  // Only the ratio is free: mass alone does change the motion.
+  scene.objects[0].mass *= 2.0;
+  const Trajectory third = MustSimulate(scene, 40);
+  EXPECT_GT((first.positions[0] - third.positions[0]).cwiseAbs().maxCoeff(), 1e-3);
+}
+
+TEST_P(RolloutTest, FreeClothConservesMomentum) {
+  Scene scene = MakeDerivativeScene("side", 5);
+  scene.integration_method = GetParam();
+  scene.delta = 0.004;
+  Perturb(2, &scene);
+  ClothObject& cloth = scene.objects[0];
+  std::fill(cloth.is_fixed.begin(), cloth.is_fixed.end(), 0);
+  cloth.drag_coefficient = 0.0;
+  cloth.damping = 0.0;
+  scene.gravity.setZero();
+  const Trajectory trajectory = MustSimulate(scene, 40);
+  const auto momentum = [&](int frame) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int i = 0; i < cloth.num_vertices(); ++i) {
+      sum += cloth.mass[i] * trajectory.velocities[0].col(frame).segment<3>(3 * i);
+    }
+    return sum;
+  };
+  const double scale =
+      cloth.mass.sum() * trajectory.velocities[0].cwiseAbs().maxCoeff();
+  EXPECT_LT((momentum(39) - momentum(0)).norm(), 1e-12 * scale);
+  EXPECT_GT((trajectory.velocities[0].col(39) - trajectory.velocities[0].col(0)).norm(),
+            0.1);
+}
+
+TEST_P(RolloutTest, FallingPointMatchesTheClosedForm) {
+  // One free vertex far from its slack spring's other end would need springs; a cloth
+  // that falls freely does not deform, so every vertex follows the scalar recursion.
+  Scene scene = MakeDerivativeScene("side", 3);
+  scene.integration_method = GetParam();
+  ClothObject& cloth = scene.objects[0];
+  std::fill(cloth.is_fixed.begin(), cloth.is_fixed.end(), 0);
+  cloth.drag_coefficient = 0.0;
+  cloth.damping = 0.5;
+  const Trajectory trajectory = MustSimulate(scene, 50);
+  const double h = scene.delta, alpha = cloth.damping;
+  const bool implicit = GetParam() == IntegrationMethod::kLinearlyImplicitEuler ||
+                        GetParam() == IntegrationMethod::kImplicitEuler;
+  double y = 0.0, v = 0.0;
+  for (int frame = 1; frame < 50; ++frame) {
+    const double v0 = v;
+    v = implicit ? (v - 9.81 * h) / (1.0 + alpha * h) : v + h * (-9.81 - alpha * v);
+    y += h * (GetParam() == IntegrationMethod::kExplicitEuler ? v0 : v);
+    for (int i = 0; i < cloth.num_vertices(); ++i) {
+      ASSERT_NEAR(trajectory.positions[0](3 * i + 1, frame), y, 1e-11);
+    }
+  }
+}
+
+TEST_P(RolloutTest, PrescribedPathIsFollowedAndDrivesTheCloth) {
+  Scene scene = MakeDerivativeScene("two_objects", 5);
+  scene.integration_method = GetParam();
+  scene.delta = 0.004;
+  scene.steps_per_frame = 4;
+  const Trajectory trajectory = MustSimulate(scene, 8);
+  const PrescribedPath& path = scene.objects[1].prescribed_paths[0];
+  for (int frame = 0; frame < 8; ++frame) {
+    const Eigen::Vector3d expected = path.positions.col(std::min(frame, 3));
+    EXPECT_EQ(trajectory.positions[1].col(frame).head<3>(), expected);
+  }
+  EXPECT_NEAR(trajectory.velocities[1](1, 2), 0.002 / scene.delta, 1e-9);
+  EXPECT_EQ(trajectory.velocities[1](1, 7), 0.0);
+  scene.objects[1].prescribed_paths.clear();
+  const Trajectory still = MustSimulate(scene, 8);
+  EXPECT_GT(
+      (trajectory.positions[1].col(7) - still.positions[1].col(7)).tail(3 * 4).norm(),
+      1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RolloutTest, testing::ValuesIn(kMethods),
+                         [](const auto& info) {
+                           return IntegrationMethodName(info.param);
+                         });
+
+TEST(RolloutStatusTest, BlowUpIsAStatusThatNamesThePlace) {
+  Scene scene = MakeDerivativeScene("side", 6);
+  scene.integration_method = IntegrationMethod::kExplicitEuler;
+  scene.objects[0].stiffness *= 1e6;
+  const Trajectory trajectory = Simulator(scene).Simulate(200);
+  EXPECT_EQ(trajectory.status.code, RolloutStatus::Code::kNotFinite);
+  EXPECT_EQ(trajectory.status.object, 0);
+  ASSERT_GT(trajectory.status.frame, 0);
+  EXPECT_TRUE(trajectory.positions[0].col(trajectory.status.frame - 1).allFinite());
+  EXPECT_TRUE(trajectory.positions[0].col(trajectory.status.frame).hasNaN());
+  EXPECT_NE(trajectory.status.Message().find("frame"), std::string::npos);
+}
+
+TEST(RolloutStatusTest, InterruptionStopsWithinAStep) {
+  const Scene scene = MakeDerivativeScene("side", 6);
+  SimulatorOptions options;
+  int polls = 0;
+  options.interrupted = [&] { return ++polls > 10; };
+  const Trajectory trajectory = Simulator(scene, options).Simulate(100);
+  EXPECT_EQ(trajectory.status.code, RolloutStatus::Code::kInterrupted);
+  EXPECT_EQ(trajectory.status.frame, 11);
+}
+
+TEST(RolloutStatusTest, ThreadsDoNotChangeTheResult) {
+  const Scene scene = MakeDerivativeScene("two_objects", 8);
+  SimulatorOptions options;
+  options.num_threads = 2;
+  const Trajectory parallel = Simulator(scene, options).Simulate(20);
+  const Trajectory serial = Simulator(scene).Simulate(20);
+  EXPECT_EQ(parallel.positions[0], serial.positions[0]);
+  EXPECT_EQ(parallel.positions[1], serial.positions[1]);
+}
+
+TEST(RolloutStatusTest, ObjectsWithoutEstimatedParametersAreLeftOut) {
+  Scene scene = MakeDerivativeScene("two_objects", 5);
+  ApplySettings("nL", &scene);
+  SimulatorOptions options;
+  options.only_estimated_objects = true;
+  Simulator simulator(scene, options);
+  EXPECT_TRUE(simulator.is_simulated(0));
+  EXPECT_FALSE(simulator.is_simulated(1));
+  const Trajectory trajectory = simulator.Simulate(5);
+  EXPECT_EQ(trajectory.positions[1].size(), 0);
+  EXPECT_EQ(trajectory.num_frames(), 5);
+}
+
+}  // namespace
+}  // namespace dpe::test
