@@ -5,6 +5,7 @@
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -41,6 +42,13 @@ std::vector<double> ReadVertices(const std::string& path, const std::string& tex
   return coordinates;
 }
 
+// The loader ends each of its messages with a line break or two.
+std::string OneLine(std::string message) {
+  while (!message.empty() && message.back() == '\n') message.pop_back();
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  return message;
+}
+
 std::vector<std::array<int, 3>> ReadTriangles(const std::string& path,
                                               const std::string& text) {
   tinyobj::ObjReaderConfig config;
@@ -48,13 +56,14 @@ std::vector<std::array<int, 3>> ReadTriangles(const std::string& path,
   config.vertex_color = false;
   tinyobj::ObjReader reader;
   if (!reader.ParseFromString(text, "", config)) {
-    throw SceneError(path + ": " + reader.Error());
+    throw SceneError(path + ": " + OneLine(reader.Error()));
   }
   // Faces with a bad index or fewer than three corners are dropped with a warning; a
-  // cloth with holes where nobody cut them is no use.
-  for (const char* problem : {"out of bounds", "egenerated face"}) {
+  // cloth with holes where nobody cut them is no use. Normals and textures are not
+  // used.
+  for (const char* problem : {"Vertex indices out of bounds", "egenerated face"}) {
     if (reader.Warning().find(problem) != std::string::npos) {
-      throw SceneError(path + ": " + reader.Warning());
+      throw SceneError(path + ": " + OneLine(reader.Warning()));
     }
   }
   std::vector<std::array<int, 3>> triangles;

@@ -10,6 +10,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 using Triangle = std::array<int, 3>;
@@ -43,6 +44,8 @@ TEST(ObjMesh, ReadsPositionsExactlyAndSplitsFaces) {
   EXPECT_EQ(mesh.positions[7], 0.1);
   EXPECT_THAT(mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
   EXPECT_EQ(Load(std::string(kSquare) + "f 1 2 3 4\n").triangles.size(), 2);
+  // Normals and textures do not matter, so neither do their indices.
+  EXPECT_EQ(Load(std::string(kSquare) + "f 1/9/9 2/9/9 3/9/9\n").triangles.size(), 1);
   EXPECT_THAT(Load(std::string(kSquare) + "f -4 -3 -2\n").triangles,
               ElementsAre(Triangle{0, 1, 2}));
 }
