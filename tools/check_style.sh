@@ -67,18 +67,22 @@ clang_format_command() {
 }
 
 check_format() {
-  local command
+  local command output unformatted file
   command="$(clang_format_command)"
   if [[ -z "$command" ]]; then
     echo "note: clang-format $clang_format_version was not found; format not checked"
-  elif [[ -n "$sources" ]]; then
-    # One file at a time, so that one line names each file to be formatted.
-    local file
-    while IFS= read -r file; do
-      "$command" --dry-run --Werror "$file" 2> /dev/null ||
-        report "$file: not formatted; run: $command -i $file"
-    done <<< "$sources"
+    return
   fi
+  # shellcheck disable=SC2086  # names without spaces
+  if output="$("$command" --dry-run --Werror $sources 2>&1)"; then return; fi
+  unformatted="$(sed -n 's/^\([^:]*\):[0-9]*:[0-9]*: error: .*/\1/p' <<< "$output")"
+  if [[ -z "$unformatted" ]]; then
+    report "$command failed: $(head -1 <<< "$output")"
+    return
+  fi
+  while IFS= read -r file; do
+    report "$file: not formatted; run: $command -i $file"
+  done <<< "$(sort -u <<< "$unformatted")"
 }
 
 check_limit() {  # WHAT VALUE LIMIT

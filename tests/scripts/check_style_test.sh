@@ -67,6 +67,8 @@ refused "a folder without README" "^engine/src/forces: has no README.md"
 if [[ "$(clang-format --version 2> /dev/null)" == *"version 14."* ]]; then
   put engine/src/untidy.cc "int   Untidy( ){return 1 ;}"
   refused "bad format" "^engine/src/untidy.cc: not formatted"
+  put .clang-format "NoSuchOption: 1"
+  refused "a broken .clang-format" "clang-format.* failed"
 fi
 
 # Sizes. The clean project has seven short files.
