@@ -75,14 +75,15 @@ check_format() {
   fi
   # shellcheck disable=SC2086  # names without spaces
   if output="$("$command" --dry-run --Werror $sources 2>&1)"; then return; fi
-  unformatted="$(sed -n 's/^\([^:]*\):[0-9]*:[0-9]*: error: .*/\1/p' <<< "$output")"
+  unformatted="$(sed -nE 's/^(.*\.(h|cc)):[0-9]+:[0-9]+: error: .*/\1/p' <<< "$output" |
+                 sort -u)"
   if [[ -z "$unformatted" ]]; then
     report "$command failed: $(head -1 <<< "$output")"
     return
   fi
   while IFS= read -r file; do
     report "$file: not formatted; run: $command -i $file"
-  done <<< "$(sort -u <<< "$unformatted")"
+  done <<< "$unformatted"
 }
 
 check_limit() {  # WHAT VALUE LIMIT
