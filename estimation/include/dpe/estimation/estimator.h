@@ -34,7 +34,7 @@ struct IterationReport {
   double rms = 0.0;        // m
   double step_norm = 0.0;  // in the optimiser's (log) coordinates
   double gradient_max_norm = 0.0;
-  double seconds = 0.0;    // since the start
+  double seconds = 0.0;  // since the start
   bool step_accepted = true;
 };
 
@@ -42,13 +42,18 @@ struct EstimatorOptions {
   SolverType solver = SolverType::kAuto;
   JacobianMethod jacobian = JacobianMethod::kAuto;
   InitMethod init = InitMethod::kAuto;
-  double uniform_value = 1.0;       // for kUniform, in each parameter's SI unit
-  double init_perturbation = 0.0;   // multiply the start by exp(this * N(0,1)), seeded
-  std::uint64_t seed = 0;           // of the perturbation
-  int max_iterations = 200;
+  double uniform_value = 1.0;      // for kUniform, in each parameter's SI unit
+  double init_perturbation = 0.0;  // multiply the start by exp(this * N(0,1)), seeded
+  std::uint64_t seed = 0;          // of the perturbation
+  int max_screen_parameters = 8;   // for kAuto, see there
+  int max_iterations = -1;         // negative: 200 for LM, 5000 for L-BFGS
   double max_seconds = 1e9;
   int num_threads = 1;
   int num_frames = 0;  // frames to fit; <= 0: as many as were observed
+
+  // SolverType::kAuto takes LM as long as its dense Jacobian (8 bytes x residuals x
+  // parameters; Ceres keeps about three copies) is not larger than this, else L-BFGS.
+  double max_lm_jacobian_bytes = 1e9;
 
   // The fit stops as converged when the RMS has fallen below this (m): beneath it there
   // is only rounding error. Relative to the scene's size of a few metres.
@@ -87,11 +92,11 @@ struct EstimatedBlock {
 
 struct EstimatorSummary {
   Termination termination = Termination::kNumericalFailure;
-  std::string message;           // one sentence: why it stopped
-  std::string solver;            // "lm" or "lbfgs"
-  std::string solver_reason;     // why this one
-  std::string jacobian;          // "tangent", "adjoint", or "gradient" for L-BFGS
-  std::string init;              // the method that gave the start
+  std::string message;             // one sentence: why it stopped
+  std::string solver;              // "lm" or "lbfgs"
+  std::string solver_reason;       // why this one
+  std::string jacobian;            // "tangent", "adjoint", or "gradient" for L-BFGS
+  std::string init;                // the method that gave the start
   std::vector<std::string> notes;  // gauges fixed, values clamped, ...
   int iterations = 0;
   int evaluations = 0;           // rollouts
@@ -111,15 +116,15 @@ struct EstimatorSummary {
 
 // Estimates the parameters that `scene` marks as estimated (optimizationSettings,
 // `estimate`) from `observations`. The scene's values of estimated parameters are not
-// used, except by InitMethod::kScene; where mass and stiffness are both estimated and no
-// known force fixes their scale, the object's total mass is (and a note says so).
+// used, except by InitMethod::kScene; where mass and stiffness are both estimated and
+// no known force fixes their scale, the object's total mass is (and a note says so).
 //
 // @throws SceneError if nothing is estimated or observed, or an option does not fit.
 EstimatorSummary Estimate(const Scene& scene, const Observations& observations,
                           const EstimatorOptions& options);
 
-// Mean over the parameters that act on the motion of 100 |p - p_true| / |p_true|; NaN if
-// no block of the layout can represent the truth.
+// Mean over the parameters that act on the motion of 100 |p - p_true| / |p_true|; NaN
+// if no block of the layout can represent the truth.
 double ParameterDeviationPercent(const EstimatorSummary& summary, const Scene& truth);
 
 }  // namespace dpe

@@ -1,0 +1,75 @@
+// One estimation from files to files: what estimate_cloth does, without its flags.
+#ifndef DPE_ESTIMATION_ESTIMATION_JOB_H_
+#define DPE_ESTIMATION_ESTIMATION_JOB_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dpe/engine/scene.h"
+#include "dpe/engine/trajectory.h"
+#include "dpe/estimation/estimator.h"
+#include "dpe/estimation/observations.h"
+
+namespace dpe {
+
+struct EstimationJob {
+  std::string scene_path;
+  // What to estimate, as ApplySettings reads it; empty: as the scene says.
+  std::string settings;
+  // CSV file to fit; empty: the motion that the scene's own parameters make, which then
+  // serve to report the deviation and for nothing else.
+  std::string target_path;
+  int num_frames = 0;             // to fit; <= 0: as the scene says, at most the file's
+  int num_validation_frames = 0;  // to compare after the fit; 0: none
+  double noise_sigma = 0.0;       // m, added to the target, see AddNoise
+  std::uint64_t noise_seed = 0;
+  std::string output_dir;  // empty: results/<scene>_<settings>
+  EstimatorOptions options;
+};
+
+// What a job reads.
+struct EstimationInput {
+  Scene scene;  // with the settings applied
+  std::vector<std::string> warnings;
+  Observations target;          // the frames to fit, with noise
+  Observations reference;       // all known frames, without added noise
+  bool truth_is_known = false;  // the scene's values made the target
+  int num_frames = 0;
+  int num_validation_frames = 0;  // at most what the reference holds
+};
+
+struct Validation {
+  int num_frames = 0;     // 0: there was none
+  double rms = 0.0;       // m; NaN if the rollout failed
+  Trajectory trajectory;  // of the fitted scene, as many frames as fitted or validated
+  std::string note;       // why there is no RMS
+};
+
+// Reads scene and target; makes the target and its noise.
+// @throws SceneError for bad input, and if the scene's own motion cannot be simulated
+EstimationInput LoadEstimationInput(const EstimationJob& job);
+
+// The job's output folder, created if it is missing.
+// @throws SceneError if it cannot be
+std::string PrepareOutputDir(const EstimationJob& job, const Scene& scene);
+
+// Simulates the fitted scene beyond the fit and compares with the reference.
+Validation Validate(const EstimatorSummary& summary, const EstimationInput& input,
+                    int num_threads);
+
+// Writes <scene>_<settings>_optimized.txt, trajectory.csv and report.json, each
+// atomically; only the report if no point could be simulated.
+// @return the paths written
+std::vector<std::string> WriteResults(const EstimationJob& job,
+                                      const EstimationInput& input,
+                                      const EstimatorSummary& summary,
+                                      const Validation& validation,
+                                      const std::string& output_dir);
+
+// "<scene>_<settings>", the scene being its file name without extension.
+std::string JobName(const EstimationJob& job, const Scene& scene);
+
+}  // namespace dpe
+
+#endif  // DPE_ESTIMATION_ESTIMATION_JOB_H_

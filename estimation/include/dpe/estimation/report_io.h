@@ -1,0 +1,26 @@
+// The machine-readable report of an estimation.
+#ifndef DPE_ESTIMATION_REPORT_IO_H_
+#define DPE_ESTIMATION_REPORT_IO_H_
+
+#include <string>
+
+#include "dpe/estimation/estimation_job.h"
+
+namespace dpe {
+
+// The report as JSON text; what is unknown or not a finite number is null.
+//
+// scene, settings, target, frames, solver, solver_reason, jacobian, init, success,
+// termination, message, notes [], iterations, evaluations, jacobian_evaluations,
+// wall_time_s, initial_cost and final_cost (m^2), initial_rms_position_error_m,
+// rms_position_error_m, validation {frames, rms_position_error_m, note},
+// parameter_deviation_percent, noise_sigma_m, seed, and
+// parameters [{object, kind, mode, unit, values, true_values, elements, inactive}]:
+// `elements` names the element of each value in mode L, `inactive` the elements without
+// influence on the motion.
+std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
+                         const EstimatorSummary& summary, const Validation& validation);
+
+}  // namespace dpe
+
+#endif  // DPE_ESTIMATION_REPORT_IO_H_

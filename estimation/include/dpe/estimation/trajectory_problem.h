@@ -1,0 +1,61 @@
+// Trajectory costs as Ceres sees them.
+//
+// Every TrajectoryCost is one ceres::CostFunction over the scene's parameter blocks
+// (one ceres block per ParameterBlock, in the coordinates of ParameterMap). One
+// ceres::EvaluationCallback runs the rollout, and the derivative pass when Jacobians
+// are asked for; the cost functions only copy from it. A rollout that fails makes them
+// return false, which Ceres takes as a rejected step.
+#ifndef DPE_ESTIMATION_TRAJECTORY_PROBLEM_H_
+#define DPE_ESTIMATION_TRAJECTORY_PROBLEM_H_
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "dpe/estimation/trajectory_evaluator.h"
+
+namespace dpe {
+
+class TrajectoryProblem : private ceres::EvaluationCallback {
+ public:
+  // As the constructor of TrajectoryEvaluator.
+  TrajectoryProblem(const Scene& scene, TrajectoryCosts costs,
+                    const TrajectoryEvaluatorOptions& options = {});
+  TrajectoryProblem(const TrajectoryProblem&) = delete;
+  TrajectoryProblem& operator=(const TrajectoryProblem&) = delete;
+
+  TrajectoryEvaluator* evaluator() { return &evaluator_; }
+  const ParameterLayout& layout() const { return evaluator_.layout(); }
+
+  // Where Ceres keeps the coordinates: layout order, parameter block b at
+  // block_coordinates(b). Set a start here before solving; read the solution here
+  // after.
+  const Eigen::VectorXd& coordinates() const { return coordinates_; }
+  void set_coordinates(const Eigen::VectorXd& coordinates);
+  double* block_coordinates(int block);
+
+  // The least-squares problem; further residual blocks (a prior, say) may be added over
+  // block_coordinates(). Do not use Ceres's check_gradients with it: that clones the
+  // problem without its callback.
+  ceres::Problem* least_squares() { return &least_squares_; }
+
+  // The same cost as one scalar function of all coordinates with its adjoint gradient;
+  // the caller (or a ceres::GradientProblem) owns it, and it must not outlive this.
+  ceres::FirstOrderFunction* NewFirstOrderFunction();
+
+ private:
+  void PrepareForEvaluation(bool evaluate_jacobians, bool new_point) override;
+  ceres::Problem::Options ProblemOptions();
+
+  TrajectoryEvaluator evaluator_;
+  Eigen::VectorXd coordinates_;
+  ceres::Problem least_squares_;
+  bool jacobian_ok_ = false;
+
+  friend class CachedCostFunction;
+};
+
+}  // namespace dpe
+
+#endif  // DPE_ESTIMATION_TRAJECTORY_PROBLEM_H_

@@ -1,0 +1,153 @@
+#include "optimizers.h"
+
+#include <ceres/ceres.h>
+
+#include <cmath>
+#include <utility>
+
+namespace dpe {
+namespace {
+
+// Enough for a trust region to shrink from its default to a useful size while every
+// trial step's rollout fails.
+constexpr int kMaxConsecutiveInvalidSteps = 60;
+
+// L-BFGS is restarted from its best point when a line search finds no decrease; it has
+// converged when a restart gains less than this fraction of the cost.
+constexpr double kRestartGain = 1e-6;
+
+constexpr int kDefaultLmIterations = 200;
+constexpr int kDefaultLbfgsIterations = 5000;
+constexpr int kLbfgsRank = 50;
+
+// Reports iterations and ends the solve when there is a reason to.
+class ProgressCallback : public ceres::IterationCallback {
+ public:
+  explicit ProgressCallback(OptimizerContext* context)
+      : context_(context), first_iteration_(context->num_iterations) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& s) override {
+    // A later solve's iteration 0 is the point that the one before ended at.
+    if (s.iteration > 0 || first_iteration_ == 0) {
+      context_->num_iterations = first_iteration_ + s.iteration;
+      IterationReport report;
+      report.iteration = context_->num_iterations;
+      report.cost = s.cost;
+      report.step_norm = s.step_norm;
+      report.gradient_max_norm = s.gradient_max_norm;
+      report.step_accepted = s.step_is_successful;
+      context_->Report(report);
+    }
+    if (context_->stop->Poll() || s.cost <= context_->converged_cost) {
+      return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    }
+    return ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  OptimizerContext* context_;
+  int first_iteration_;
+};
+
+// Goes back to the best point that was evaluated: Ceres leaves the parameters where
+// they were when a solve ends in a failure.
+void RestoreBest(TrajectoryProblem* problem) {
+  problem->set_coordinates(problem->evaluator()->best_coordinates());
+}
+
+OptimizerResult Explain(const OptimizerContext& context, ceres::TerminationType type,
+                        const std::string& message) {
+  if (context.stop->was_interrupted()) {
+    return {Termination::kInterrupted, "interrupted by the user"};
+  }
+  if (context.stop->ran_out_of_time()) {
+    return {Termination::kMaxSeconds, "the time limit was reached"};
+  }
+  if (context.problem->evaluator()->best_cost() <= context.converged_cost) {
+    return {Termination::kConverged,
+            "the error has fallen to the level of rounding (rms_tolerance)"};
+  }
+  switch (type) {
+    case ceres::CONVERGENCE:
+    case ceres::USER_SUCCESS:
+      return {Termination::kConverged, message};
+    case ceres::NO_CONVERGENCE:
+      return {Termination::kMaxIterations, "the iteration limit was reached"};
+    default:
+      return {Termination::kNumericalFailure, message};
+  }
+}
+
+int MaxIterations(const OptimizerContext& context, int default_value) {
+  const int limit = context.options->max_iterations;
+  return (limit >= 0 ? limit : default_value) - context.num_iterations;
+}
+
+}  // namespace
+
+void OptimizerContext::Report(IterationReport report) const {
+  if (!options->progress) return;
+  report.rms = rms_of_cost(report.cost);
+  report.seconds = stop->Seconds();
+  options->progress(report);
+}
+
+OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
+  const EstimatorOptions& options = *context->options;
+  ceres::Solver::Options solver;
+  solver.minimizer_type = ceres::TRUST_REGION;
+  solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
+  // QR does not square the condition number, and LAPACK's is several times faster than
+  // Ceres's own product J^T J (which is compiled without vector instructions).
+  solver.linear_solver_type = ceres::DENSE_QR;
+  solver.dense_linear_algebra_library_type = ceres::LAPACK;
+  solver.max_num_iterations = MaxIterations(*context, kDefaultLmIterations);
+  solver.max_num_consecutive_invalid_steps = kMaxConsecutiveInvalidSteps;
+  // The damping is relative to the squared column lengths of J. Ceres raises those to
+  // 1e-6 before, which would drown columns of short lengths (m per unit of ln p).
+  solver.min_lm_diagonal = 1e-24;
+  solver.function_tolerance = options.function_tolerance;
+  solver.gradient_tolerance = options.gradient_tolerance;
+  solver.parameter_tolerance = options.parameter_tolerance;
+  solver.num_threads = options.num_threads;
+  solver.logging_type = ceres::SILENT;
+  ProgressCallback callback(context);
+  solver.callbacks.push_back(&callback);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, context->problem->least_squares(), &summary);
+  RestoreBest(context->problem);
+  return Explain(*context, summary.termination_type, summary.message);
+}
+
+OptimizerResult MinimizeByLbfgs(OptimizerContext* context) {
+  const EstimatorOptions& options = *context->options;
+  ceres::GradientProblemSolver::Options solver;
+  solver.line_search_direction_type = ceres::LBFGS;
+  solver.max_lbfgs_rank = kLbfgsRank;
+  solver.function_tolerance = options.function_tolerance;
+  solver.gradient_tolerance = options.gradient_tolerance;
+  solver.parameter_tolerance = options.parameter_tolerance;
+  solver.logging_type = ceres::SILENT;
+  TrajectoryEvaluator* evaluator = context->problem->evaluator();
+  const ceres::GradientProblem problem(context->problem->NewFirstOrderFunction());
+  while (true) {
+    solver.max_num_iterations = MaxIterations(*context, kDefaultLbfgsIterations);
+    ProgressCallback callback(context);
+    solver.callbacks = {&callback};
+    const double cost_before = evaluator->best_cost();
+    Eigen::VectorXd coordinates = context->problem->coordinates();
+    ceres::GradientProblemSolver::Summary summary;
+    ceres::Solve(solver, problem, coordinates.data(), &summary);
+    RestoreBest(context->problem);
+    OptimizerResult result =
+        Explain(*context, summary.termination_type, summary.message);
+    if (result.termination != Termination::kNumericalFailure) return result;
+    if (!(evaluator->best_cost() < (1.0 - kRestartGain) * cost_before)) {
+      result.termination = Termination::kConverged;
+      result.message = "no step along the gradient lowers the cost any more";
+      return result;
+    }
+  }
+}
+
+}  // namespace dpe

@@ -1,0 +1,88 @@
+#include "dpe/estimation/report_io.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "dpe/engine/parameters.h"
+
+namespace dpe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json Numbers(const Eigen::VectorXd& values) {
+  Json array = Json::array();
+  for (const double value : values) array.push_back(Number(value));
+  return array;
+}
+
+Json Parameters(const EstimationInput& input, const EstimatorSummary& summary) {
+  const ParameterLayout layout(input.scene);
+  const Eigen::VectorXd truth = layout.Extract(input.scene);
+  Json array = Json::array();
+  for (size_t b = 0; b < summary.blocks.size(); ++b) {
+    const EstimatedBlock& block = summary.blocks[b];
+    const ParameterBlock& place = layout.blocks()[b];
+    Json entry;
+    // The wind belongs to the scene, not to an object.
+    entry["object"] = block.object >= 0 ? Json(block.object) : Json(nullptr);
+    entry["kind"] = block.kind;
+    entry["mode"] = std::string(1, block.mode);
+    entry["unit"] = block.unit;
+    entry["values"] = Numbers(block.values);
+    const bool known =
+        input.truth_is_known && layout.Represents(input.scene, static_cast<int>(b));
+    entry["true_values"] =
+        known ? Numbers(truth.segment(place.offset, place.size)) : Json(nullptr);
+    if (!block.elements.empty()) entry["elements"] = block.elements;
+    entry["inactive"] = block.inactive;
+    array.push_back(std::move(entry));
+  }
+  return array;
+}
+
+}  // namespace
+
+std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
+                         const EstimatorSummary& summary,
+                         const Validation& validation) {
+  Json report;
+  report["scene"] = job.scene_path;
+  report["settings"] = SettingsString(input.scene);
+  report["target"] = job.target_path.empty() ? Json(nullptr) : Json(job.target_path);
+  report["frames"] = summary.num_frames;
+  report["solver"] = summary.solver;
+  report["solver_reason"] = summary.solver_reason;
+  report["jacobian"] = summary.jacobian;
+  report["init"] = summary.init;
+  report["success"] = summary.usable();
+  report["termination"] = TerminationName(summary.termination);
+  report["message"] = summary.message;
+  report["notes"] = summary.notes;
+  report["iterations"] = summary.iterations;
+  report["evaluations"] = summary.evaluations;
+  report["jacobian_evaluations"] = summary.jacobian_evaluations;
+  report["wall_time_s"] = Number(summary.wall_time_s);
+  report["initial_cost"] = Number(summary.initial_cost);
+  report["final_cost"] = Number(summary.final_cost);
+  report["initial_rms_position_error_m"] = Number(summary.initial_rms);
+  report["rms_position_error_m"] = Number(summary.final_rms);
+  report["validation"] = {
+      {"frames", validation.num_frames},
+      {"rms_position_error_m", Number(validation.rms)},
+      {"note", validation.note.empty() ? Json(nullptr) : Json(validation.note)}};
+  report["parameter_deviation_percent"] =
+      input.truth_is_known && std::isfinite(summary.final_cost)
+          ? Number(ParameterDeviationPercent(summary, input.scene))
+          : Json(nullptr);
+  report["noise_sigma_m"] = Number(job.noise_sigma);
+  report["seed"] = job.options.seed;
+  report["parameters"] = Parameters(input, summary);
+  // Text that is not UTF-8 (a file name, say) must not make the report fail.
+  return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace dpe

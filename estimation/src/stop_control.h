@@ -1,0 +1,44 @@
+// When to give up: the clock and the user's interruption, polled from everywhere.
+#ifndef DPE_ESTIMATION_STOP_CONTROL_H_
+#define DPE_ESTIMATION_STOP_CONTROL_H_
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <utility>
+
+namespace dpe {
+
+class StopControl {
+ public:
+  StopControl(double max_seconds, std::function<bool()> interrupted)
+      : max_seconds_(max_seconds), interrupted_(std::move(interrupted)) {}
+
+  double Seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+
+  // True from the first time on that there is a reason to stop.
+  bool Poll() {
+    if (!was_interrupted_ && interrupted_ && interrupted_()) was_interrupted_ = true;
+    if (!ran_out_of_time_ && Seconds() >= max_seconds_) ran_out_of_time_ = true;
+    return stopped();
+  }
+
+  bool stopped() const { return was_interrupted_ || ran_out_of_time_; }
+  bool was_interrupted() const { return was_interrupted_; }
+  bool ran_out_of_time() const { return ran_out_of_time_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  double max_seconds_;
+  std::function<bool()> interrupted_;
+  // Rollouts of several objects may poll from several threads.
+  std::atomic<bool> was_interrupted_{false};
+  std::atomic<bool> ran_out_of_time_{false};
+};
+
+}  // namespace dpe
+
+#endif  // DPE_ESTIMATION_STOP_CONTROL_H_

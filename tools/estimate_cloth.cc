@@ -1,0 +1,189 @@
+// Recovers the physical parameters of a cloth from how it moves.
+#include <gflags/gflags.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <iostream>
+#include <string>
+
+#include "dpe/estimation/estimation_job.h"
+#include "support/blas_threads.h"
+#include "support/flag_ranges.h"
+#include "support/flag_values.h"
+#include "support/interrupt.h"
+#include "support/progress_table.h"
+#include "support/run_main.h"
+
+DEFINE_string(scene, "", "Scene file (required).");
+DEFINE_string(target, "",
+              "CSV file with the observed motion (frame,vertex,x,y,z; missing rows are "
+              "missing observations). Without it the scene's own parameters make the "
+              "target, and then serve for nothing but the report of the deviation.");
+DEFINE_string(
+    settings, "",
+    "What to estimate instead of what the scene says: two letters per object, "
+    "mass then stiffness, objects separated by commas. n: not estimated, G: "
+    "one value, L: one per vertex or spring, R: one per group.");
+DEFINE_int32(frames, 0,
+             "Frames to fit, the initial state included; 0: what the scene says.");
+DEFINE_int32(
+    validate_frames, 0,
+    "Frames over which the fitted scene is compared with the target; 0: none.");
+DEFINE_string(solver, "auto",
+              "auto, lm (Levenberg-Marquardt) or lbfgs. auto takes lm unless its "
+              "Jacobian would need more than 1 GB.");
+DEFINE_string(
+    jacobian, "auto",
+    "auto (the cheaper one), adjoint or tangent. Both give the same numbers.");
+DEFINE_string(init, "auto",
+              "Where to start. inverse_dynamics: linear least squares on the equations "
+              "of motion; scene: the scene's values; uniform:VALUE: one value for all "
+              "(SI units); screen: log-spaced trial values. auto: inverse_dynamics if "
+              "every free vertex is observed, else screen for up to 8 parameters, else "
+              "scene.");
+DEFINE_double(init_perturbation, 0.0,
+              "Multiply every starting value by exp(this times a normal number).");
+DEFINE_int32(max_iterations, -1,
+             "Most iterations of the solver; -1: 200 for lm, 5000 for lbfgs.");
+DEFINE_double(max_seconds, 1e9, "Stop with the best so far after this many seconds.");
+DEFINE_double(noise_sigma, 0.0,
+              "Standard deviation (m) of normal noise to add to the target.");
+DEFINE_uint64(seed, 0, "Seed of --noise_sigma and --init_perturbation.");
+DEFINE_string(output_dir, "",
+              "Folder for the results; default results/<scene>_<settings>.");
+DEFINE_int32(threads, 1, "Number of threads.");
+
+namespace dpe::tools {
+namespace {
+
+constexpr char kUniform[] = "uniform:";
+
+[[noreturn]] void Refuse(const std::string& flag, const std::string& value,
+                         const std::string& accepted) {
+  throw SceneError("--" + flag + ": \"" + value + "\" is not accepted; expected " +
+                   accepted);
+}
+
+SolverType SolverFromFlag() {
+  if (FLAGS_solver == "auto") return SolverType::kAuto;
+  if (FLAGS_solver == "lm") return SolverType::kLevenbergMarquardt;
+  if (FLAGS_solver == "lbfgs") return SolverType::kLbfgs;
+  Refuse("solver", FLAGS_solver, "auto, lm or lbfgs");
+}
+
+JacobianMethod JacobianFromFlag() {
+  if (FLAGS_jacobian == "auto") return JacobianMethod::kAuto;
+  if (FLAGS_jacobian == "adjoint") return JacobianMethod::kAdjoint;
+  if (FLAGS_jacobian == "tangent") return JacobianMethod::kTangent;
+  Refuse("jacobian", FLAGS_jacobian, "auto, adjoint or tangent");
+}
+
+void SetInitFromFlag(EstimatorOptions* options) {
+  if (FLAGS_init == "auto") {
+    options->init = InitMethod::kAuto;
+  } else if (FLAGS_init == "inverse_dynamics") {
+    options->init = InitMethod::kInverseDynamics;
+  } else if (FLAGS_init == "scene") {
+    options->init = InitMethod::kScene;
+  } else if (FLAGS_init == "screen") {
+    options->init = InitMethod::kScreen;
+  } else if (FLAGS_init.rfind(kUniform, 0) == 0) {
+    options->init = InitMethod::kUniform;
+    options->uniform_value =
+        ParseNumbers("init", FLAGS_init.substr(sizeof(kUniform) - 1), 1)[0];
+    if (options->uniform_value <= 0.0) {
+      Refuse("init", FLAGS_init, "a number above 0 after uniform:");
+    }
+  } else {
+    Refuse("init", FLAGS_init,
+           "auto, inverse_dynamics, scene, screen or uniform:VALUE");
+  }
+}
+
+EstimationJob JobFromFlags() {
+  RequireFlag("scene", FLAGS_scene, "the scene file whose parameters to estimate");
+  RequireAtLeast("frames", FLAGS_frames, 0);
+  RequireAtLeast("validate_frames", FLAGS_validate_frames, 0);
+  RequireAtLeast("init_perturbation", FLAGS_init_perturbation, 0.0);
+  RequireAtLeast("max_iterations", FLAGS_max_iterations, -1);
+  RequireAtLeast("max_seconds", FLAGS_max_seconds, 0.0);
+  RequireAtLeast("noise_sigma", FLAGS_noise_sigma, 0.0);
+  RequireAtLeast("threads", FLAGS_threads, 1);
+  EstimationJob job;
+  job.scene_path = FLAGS_scene;
+  job.settings = FLAGS_settings;
+  job.target_path = FLAGS_target;
+  job.num_frames = FLAGS_frames;
+  job.num_validation_frames = FLAGS_validate_frames;
+  job.noise_sigma = FLAGS_noise_sigma;
+  job.noise_seed = FLAGS_seed;
+  job.output_dir = FLAGS_output_dir;
+  job.options.solver = SolverFromFlag();
+  job.options.jacobian = JacobianFromFlag();
+  SetInitFromFlag(&job.options);
+  job.options.init_perturbation = FLAGS_init_perturbation;
+  job.options.seed = FLAGS_seed;
+  job.options.max_iterations = FLAGS_max_iterations;
+  job.options.max_seconds = FLAGS_max_seconds;
+  job.options.num_threads = FLAGS_threads;
+  return job;
+}
+
+int ExitCode(Termination termination) {
+  switch (termination) {
+    case Termination::kConverged:
+      return 0;
+    case Termination::kMaxIterations:
+    case Termination::kMaxSeconds:
+    case Termination::kInterrupted:
+      return 2;
+    case Termination::kStartFailed:
+    case Termination::kNumericalFailure:
+      break;
+  }
+  return 3;
+}
+
+int Main() {
+  EstimationJob job = JobFromFlags();
+  SetBlasThreads(FLAGS_threads);
+  const EstimationInput input = LoadEstimationInput(job);
+  for (const std::string& warning : input.warnings) {
+    std::cerr << "estimate_cloth: warning: " << warning << "\n";
+  }
+  const std::string output_dir = PrepareOutputDir(job, input.scene);
+  CatchInterrupts();
+  PrintTask(job, input);
+  ProgressTable table(isatty(STDOUT_FILENO) != 0);
+  table.PrintHeader();
+  job.options.progress = [&](const IterationReport& r) { table.PrintIteration(r); };
+  const auto start = std::chrono::steady_clock::now();
+  job.options.interrupted = [&] {
+    const std::chrono::duration<double> elapsed =
+        std::chrono::steady_clock::now() - start;
+    table.Tick(elapsed.count());
+    return WasInterrupted();
+  };
+  const EstimatorSummary summary = Estimate(input.scene, input.target, job.options);
+  const Validation validation = Validate(summary, input, FLAGS_threads);
+  PrintSummary(input, summary, validation,
+               WriteResults(job, input, summary, validation, output_dir));
+  return ExitCode(summary.termination);
+}
+
+}  // namespace
+}  // namespace dpe::tools
+
+int main(int argc, char** argv) {
+  const dpe::tools::Program program = {
+      "estimate_cloth",
+      "Recovers masses and stiffnesses of a cloth, and what else the scene marks as "
+      "estimated, from how it moves. Exit codes: 0 the result is usable, 1 bad flags "
+      "or "
+      "input, 2 stopped before converging (the best so far is written; also after "
+      "Ctrl-C), 3 numerical failure.",
+      "--scene FILE [--target FILE] [--settings nL] [--frames N] [--validate_frames M] "
+      "[--init METHOD] [--output_dir DIR]",
+      __FILE__};
+  return dpe::tools::RunMain(argc, argv, program, dpe::tools::Main);
+}
