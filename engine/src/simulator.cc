@@ -150,7 +150,11 @@ void Simulator::StepResidual(int object, double h, const Eigen::VectorXd& x0,
                              const Eigen::VectorXd& parameters,
                              Eigen::VectorXd* residual,
                              std::vector<Eigen::Triplet<double>>* jacobian) {
-  if (parameters != current_parameters_) SetParameters(parameters);
+  // Eigen compares vectors of equal size only.
+  if (parameters.size() != current_parameters_.size() ||
+      parameters != current_parameters_) {
+    SetParameters(parameters);
+  }
   ObjectSystem& system = *systems_[object];
   const std::unique_ptr<Integrator> integrator =
       MakeIntegrator(scene_.integration_method, options_);

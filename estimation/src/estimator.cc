@@ -1,6 +1,5 @@
 #include "dpe/estimation/estimator.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "dpe/engine/parameters.h"
 #include "dpe/estimation/trajectory_problem.h"
+#include "fit_setup.h"
 #include "optimizers.h"
 #include "starting_point.h"
 #include "stop_control.h"
@@ -17,65 +17,8 @@
 namespace dpe {
 namespace {
 
-// The scene without its values of what is estimated, so that nothing that is computed
-// from it can know them.
-Scene WithoutEstimatedValues(const Scene& scene) {
-  const ParameterLayout layout(scene);
-  Eigen::VectorXd neutral = Eigen::VectorXd::Zero(layout.size());
-  for (const ParameterBlock& block : layout.blocks()) {
-    if (!ParameterKindIsPositive(block.kind)) continue;
-    neutral.segment(block.offset, block.size).setOnes();
-  }
-  Scene blank = scene;
-  layout.Insert(neutral, &blank);
-  return blank;
-}
-
-int NumFramesToFit(const Scene& scene, const Observations& observations,
-                   const EstimatorOptions& options) {
-  if (ParameterLayout(scene).size() == 0) {
-    throw SceneError(
-        "nothing is estimated: set the scene's optimizationSettings or --settings "
-        "(mass and stiffness: n, G, L or R per object) or its `estimate` object");
-  }
-  if (observations.positions.size() > scene.objects.size()) {
-    throw SceneError("the observations hold " +
-                     std::to_string(observations.positions.size()) +
-                     " objects, the scene " + std::to_string(scene.objects.size()));
-  }
-  const int observed = observations.num_frames();
-  if (options.num_frames > observed) {
-    throw SceneError("frames to fit: " + std::to_string(options.num_frames) +
-                     " asked for, " + std::to_string(observed) + " observed");
-  }
-  const int frames = options.num_frames > 0 ? options.num_frames : observed;
-  if (frames < 2) {
-    throw SceneError("frames to fit: " + std::to_string(frames) +
-                     "; accepted are 2 or more (frame 0 is the initial state)");
-  }
-  return frames;
-}
-
-// Observations of what no parameter moves: fixed vertices and frame 0.
-Observations WithoutFreeVertices(const Scene& scene, Observations observations) {
-  for (size_t object = 0; object < observations.positions.size(); ++object) {
-    Eigen::MatrixXd& positions = observations.positions[object];
-    for (int v = 0; v < positions.rows() / 3; ++v) {
-      if (scene.objects[object].is_fixed[v]) continue;
-      positions.block(3 * v, 1, 3, positions.cols() - 1)
-          .setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
-  }
-  return observations;
-}
-
-Observations FirstFrames(const Observations& observations, int num_frames) {
-  Observations first;
-  for (const Eigen::MatrixXd& p : observations.positions) {
-    first.positions.push_back(p.size() > 0 ? p.leftCols(num_frames).eval() : p);
-  }
-  return first;
-}
+// Repetitions of a fit from better trial points.
+constexpr int kMaxBasins = 3;
 
 class Fit {
  public:
@@ -83,11 +26,13 @@ class Fit {
       const EstimatorOptions& options)
       : scene_(scene),
         options_(options),
-        num_frames_(NumFramesToFit(scene, observations, options)),
-        observations_(FirstFrames(observations, num_frames_)),
+        observations_(FirstFrames(
+            observations, NumFramesToFit(scene, observations, options.num_frames))),
         stop_(options.max_seconds, options.interrupted) {
     const Scene blank = WithoutEstimatedValues(scene);
-    TrajectoryCosts costs = MakePositionCosts(blank, observations_, num_frames_);
+    summary_.num_frames = observations_.num_frames();
+    TrajectoryCosts costs =
+        MakePositionCosts(blank, observations_, summary_.num_frames);
     if (costs.empty()) {
       throw SceneError(
           "no free vertex of an estimated object is observed after frame 0");
@@ -98,68 +43,31 @@ class Fit {
     evaluator_options.interrupted = [this] { return stop_.Poll(); };
     problem_ =
         std::make_unique<TrajectoryProblem>(blank, std::move(costs), evaluator_options);
-    CountObservations();
+    rms_scale_ = std::make_unique<RmsScale>(*evaluator()->simulator(), observations_);
     context_.problem = problem_.get();
     context_.options = &options_;
     context_.stop = &stop_;
-    context_.converged_cost = 0.5 * Square(options.rms_tolerance) * num_positions_;
-    context_.rms_of_cost = [this](double cost) { return Rms(cost); };
+    context_.converged_cost = rms_scale_->CostOf(options.rms_tolerance);
+    context_.rms_of_cost = [this](double cost) { return rms_scale_->Rms(cost); };
   }
 
   EstimatorSummary Run() {
-    summary_.num_frames = num_frames_;
     ChooseSolver();
-    if (Start()) Optimise();
+    if (Start()) {
+      Optimise();
+      CheckForBetterBasins();
+    } else {
+      ExplainFailedStart();
+    }
     Finish();
     return summary_;
   }
 
  private:
-  static double Square(double value) { return value * value; }
-
   TrajectoryEvaluator* evaluator() { return problem_->evaluator(); }
 
-  double Rms(double cost) const {
-    return std::sqrt((2.0 * cost + constant_square_sum_) / num_positions_);
-  }
-
-  // What the RMS counts beside the residuals: vertices that no parameter moves.
-  void CountObservations() {
-    num_positions_ = 0;
-    for (int object = 0; object < static_cast<int>(scene_.objects.size()); ++object) {
-      if (evaluator()->simulator()->is_simulated(object)) {
-        num_positions_ += observations_.NumObserved(object);
-      }
-    }
-    // Fixed vertices move as prescribed whatever the parameters are, which one frame
-    // more than the initial state shows; a path is followed exactly.
-    Trajectory still;
-    for (size_t object = 0; object < scene_.objects.size(); ++object) {
-      still.positions.push_back(PrescribedPositions(static_cast<int>(object)));
-    }
-    const Observations fixed = WithoutFreeVertices(scene_, observations_);
-    const double rms = RmsPositionError(still, fixed, num_frames_);
-    long count = 0;
-    for (int object = 0; object < static_cast<int>(scene_.objects.size()); ++object) {
-      if (still.positions[object].size() > 0) count += fixed.NumObserved(object);
-    }
-    constant_square_sum_ = count > 0 ? Square(rms) * count : 0.0;
-  }
-
-  // The initial state, held, with fixed vertices on their paths; 0 x 0 for objects that
-  // are not simulated.
-  Eigen::MatrixXd PrescribedPositions(int object) {
-    if (!evaluator()->simulator()->is_simulated(object)) return {};
-    const ClothObject& cloth = scene_.objects[object];
-    Eigen::MatrixXd positions = cloth.positions.replicate(1, num_frames_);
-    for (const PrescribedPath& path : cloth.prescribed_paths) {
-      const int last = static_cast<int>(path.positions.cols()) - 1;
-      for (int f = 1; f < num_frames_; ++f) {
-        positions.col(f).segment<3>(3 * path.vertex) =
-            path.positions.col(std::min(f, last));
-      }
-    }
-    return positions;
+  bool HasFewParameters() {
+    return evaluator()->num_parameters() <= options_.max_checked_parameters;
   }
 
   void ChooseSolver() {
@@ -183,88 +91,125 @@ class Fit {
     summary_.solver_reason = reason.str();
   }
 
+  // Finds a start that can be simulated and makes it the current point.
   bool Start() {
-    StartingPoint start =
-        FindStartingPoint(scene_, observations_, options_, &stop_, evaluator());
-    summary_.init = start.init;
-    summary_.notes = start.notes;
-    if (start.ok) {
-      Perturb(&start.coordinates);
-      NormaliseStart(&start.coordinates);
-      problem_->set_coordinates(start.coordinates);
-      start.ok = evaluator()->Evaluate(start.coordinates);
-      start.message = evaluator()->message();
+    start_ = FindStartingPoint(scene_, observations_, options_, &stop_, evaluator());
+    TryStart();
+    if (!start_.ok && HasFewParameters() && start_.init != "screen" &&
+        !stop_.stopped()) {
+      summary_.notes.push_back("the starting point (" + start_.init +
+                               ") cannot be simulated: " + start_.message +
+                               "; the screen's best trial point takes its place");
+      start_ = ScreenStartingPoints(&stop_, evaluator());
+      TryStart();
     }
-    if (start.ok) {
-      summary_.initial_cost = evaluator()->cost();
-      summary_.initial_rms = Rms(summary_.initial_cost);
-      summary_.jacobian = use_lm_ ? evaluator()->JacobianMethodName() : "gradient";
-      return true;
+    if (!start_.ok) return false;
+    summary_.initial_cost = evaluator()->cost();
+    summary_.initial_rms = rms_scale_->Rms(summary_.initial_cost);
+    summary_.jacobian = use_lm_ ? evaluator()->JacobianMethodName() : "gradient";
+    return true;
+  }
+
+  void TryStart() {
+    summary_.init = start_.init;
+    summary_.notes.insert(summary_.notes.end(), start_.notes.begin(),
+                          start_.notes.end());
+    if (!start_.ok) return;
+    PerturbStart();
+    NormaliseStart();
+    problem_->set_coordinates(start_.coordinates);
+    start_.ok = evaluator()->Evaluate(start_.coordinates);
+    start_.message = evaluator()->message();
+  }
+
+  void PerturbStart() {
+    if (options_.init_perturbation == 0.0) return;
+    std::mt19937_64 generator(options_.seed);
+    std::normal_distribution<double> normal;
+    Eigen::VectorXd parameters = evaluator()->map().ToParameters(start_.coordinates);
+    for (double& value : parameters) {
+      value *= std::exp(options_.init_perturbation * normal(generator));
     }
+    start_.coordinates = evaluator()->map().ToCoordinates(parameters);
+  }
+
+  void NormaliseStart() {
+    // Inverse dynamics has done so itself, and said so.
+    const bool is_done = start_.init == "inverse_dynamics";
+    if (is_done && options_.init_perturbation == 0.0) return;
+    Eigen::VectorXd parameters = evaluator()->map().ToParameters(start_.coordinates);
+    const std::vector<std::string> notes =
+        NormaliseScale(scene_, problem_->layout(), FreeMass(scene_), &parameters);
+    if (notes.empty()) return;
+    if (!is_done) {
+      summary_.notes.insert(summary_.notes.end(), notes.begin(), notes.end());
+    }
+    start_.coordinates = evaluator()->map().ToCoordinates(parameters);
+  }
+
+  void ExplainFailedStart() {
     if (stop_.stopped()) {
       summary_.termination = stop_.was_interrupted() ? Termination::kInterrupted
                                                      : Termination::kMaxSeconds;
       summary_.message = "stopped before the starting point was simulated";
-    } else {
-      summary_.termination = Termination::kStartFailed;
-      summary_.message = "the starting point (" + start.init +
-                         ") cannot be simulated: " + start.message +
-                         "; try --init=screen, which looks for one that can";
-    }
-    return false;
-  }
-
-  void Perturb(Eigen::VectorXd* coordinates) {
-    if (options_.init_perturbation == 0.0) return;
-    std::mt19937_64 generator(options_.seed);
-    std::normal_distribution<double> normal;
-    Eigen::VectorXd parameters = evaluator()->map().ToParameters(*coordinates);
-    for (double& value : parameters) {
-      value *= std::exp(options_.init_perturbation * normal(generator));
-    }
-    *coordinates = evaluator()->map().ToCoordinates(parameters);
-  }
-
-  void NormaliseStart(Eigen::VectorXd* coordinates) {
-    if (summary_.init == "inverse_dynamics" && options_.init_perturbation == 0.0)
       return;
-    Eigen::VectorXd parameters = evaluator()->map().ToParameters(*coordinates);
-    const std::vector<std::string> notes =
-        NormaliseScale(scene_, problem_->layout(), FreeMass(scene_), &parameters);
-    if (notes.empty()) return;
-    if (summary_.init != "inverse_dynamics") {
-      summary_.notes.insert(summary_.notes.end(), notes.begin(), notes.end());
     }
-    *coordinates = evaluator()->map().ToCoordinates(parameters);
+    summary_.termination = Termination::kStartFailed;
+    summary_.message = "the starting point (" + start_.init +
+                       ") cannot be simulated: " + start_.message;
+    if (start_.init != "screen") {
+      summary_.message += "; try --init=screen, which looks for one that can";
+    }
   }
 
   void Optimise() {
-    if (evaluator()->cost() <= context_.converged_cost) {
-      IterationReport report;
-      report.cost = evaluator()->cost();
-      context_.Report(report);
-      summary_.termination = Termination::kConverged;
-      summary_.message =
-          "the starting point is the answer to the level of rounding (rms_tolerance)";
+    if (evaluator()->cost() > context_.converged_cost) {
+      Minimise();
       return;
     }
+    IterationReport report;
+    report.cost = evaluator()->cost();
+    context_.Report(report);
+    summary_.termination = Termination::kConverged;
+    summary_.message =
+        "the starting point is the answer to the level of rounding (rms_tolerance)";
+  }
+
+  void Minimise() {
     const OptimizerResult result =
         use_lm_ ? MinimizeByLevenbergMarquardt(&context_) : MinimizeByLbfgs(&context_);
     summary_.termination = result.termination;
     summary_.message = result.message;
   }
 
-  void Finish() {
-    const Eigen::VectorXd coordinates = evaluator()->best_coordinates().size() > 0
-                                            ? evaluator()->best_coordinates()
-                                            : problem_->coordinates();
-    summary_.parameters = evaluator()->map().ToParameters(coordinates);
-    summary_.final_cost = evaluator()->best_cost();
-    summary_.final_rms = Rms(summary_.final_cost);
-    if (!std::isfinite(summary_.final_cost)) {
-      summary_.initial_cost = summary_.initial_rms = summary_.final_rms =
-          summary_.final_cost = std::numeric_limits<double>::quiet_NaN();
+  // With a handful of parameters the whole range can be looked at, so that a local
+  // minimum or a plateau is not taken for the answer.
+  void CheckForBetterBasins() {
+    for (int round = 0; round < kMaxBasins && HasFewParameters(); ++round) {
+      const double cost_before = evaluator()->best_cost();
+      if (!summary_.usable() || cost_before <= context_.converged_cost) return;
+      const Eigen::VectorXd better = FindBetterTrialPoint(&stop_, evaluator());
+      if (better.size() == 0) return;
+      problem_->set_coordinates(better);
+      Minimise();
+      std::ostringstream note;
+      note << "the fit had converged to RMS " << rms_scale_->Rms(cost_before)
+           << " m; log-spaced trial values showed a better basin, from which it was "
+              "repeated";
+      summary_.notes.push_back(note.str());
     }
+  }
+
+  void Finish() {
+    const bool has_result = evaluator()->best_coordinates().size() > 0;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    summary_.parameters = evaluator()->map().ToParameters(
+        has_result ? evaluator()->best_coordinates() : problem_->coordinates());
+    // Steps of the optimiser may have moved along the scale, which costs nothing.
+    NormaliseScale(scene_, problem_->layout(), FreeMass(scene_), &summary_.parameters);
+    summary_.final_cost = has_result ? evaluator()->best_cost() : nan;
+    summary_.final_rms = rms_scale_->Rms(summary_.final_cost);
+    if (!has_result) summary_.initial_cost = summary_.initial_rms = nan;
     summary_.iterations = context_.num_iterations;
     summary_.evaluations = evaluator()->num_rollouts();
     summary_.jacobian_evaluations = evaluator()->num_derivative_passes();
@@ -276,15 +221,14 @@ class Fit {
 
   const Scene& scene_;
   const EstimatorOptions options_;
-  const int num_frames_;
   const Observations observations_;
   StopControl stop_;
   std::unique_ptr<TrajectoryProblem> problem_;
+  std::unique_ptr<RmsScale> rms_scale_;
   OptimizerContext context_;
+  StartingPoint start_;
   EstimatorSummary summary_;
   bool use_lm_ = true;
-  double num_positions_ = 0;          // that the RMS counts
-  double constant_square_sum_ = 0.0;  // m^2, of vertices that no parameter moves
 };
 
 }  // namespace

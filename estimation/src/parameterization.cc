@@ -1,8 +1,18 @@
 #include "dpe/estimation/parameterization.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dpe {
+namespace {
+
+// Far out exp underflows to 0, which is no positive number any more.
+double PositiveExp(double q) {
+  return std::max(std::exp(q), std::numeric_limits<double>::min());
+}
+
+}  // namespace
 
 ParameterMap::ParameterMap(const ParameterLayout& layout) : is_log_(layout.size(), 0) {
   for (const ParameterBlock& block : layout.blocks()) {
@@ -15,7 +25,7 @@ ParameterMap::ParameterMap(const ParameterLayout& layout) : is_log_(layout.size(
 Eigen::VectorXd ParameterMap::ToParameters(const Eigen::VectorXd& coordinates) const {
   Eigen::VectorXd parameters = coordinates;
   for (int i = 0; i < size(); ++i) {
-    if (is_log_[i]) parameters[i] = std::exp(coordinates[i]);
+    if (is_log_[i]) parameters[i] = PositiveExp(coordinates[i]);
   }
   return parameters;
 }
@@ -38,7 +48,7 @@ Eigen::VectorXd ParameterMap::ToCoordinates(const Eigen::VectorXd& parameters,
 Eigen::VectorXd ParameterMap::Derivative(const Eigen::VectorXd& coordinates) const {
   Eigen::VectorXd derivative = Eigen::VectorXd::Ones(size());
   for (int i = 0; i < size(); ++i) {
-    if (is_log_[i]) derivative[i] = std::exp(coordinates[i]);
+    if (is_log_[i]) derivative[i] = PositiveExp(coordinates[i]);
   }
   return derivative;
 }

@@ -16,6 +16,9 @@ constexpr double kMaxExponent = 4.0;
 constexpr int kShortHorizon = 10;
 constexpr int kNumFinalists = 8;
 
+// A trial point has to lower the cost by this fraction to be worth another fit.
+constexpr double kBetter = 1e-6;
+
 constexpr int kSweeps = 3;  // of the coordinate-wise search
 
 struct Trial {
@@ -132,6 +135,31 @@ class Screen {
 };
 
 }  // namespace
+
+Eigen::VectorXd FindBetterTrialPoint(StopControl* stop,
+                                     TrajectoryEvaluator* evaluator) {
+  const Eigen::VectorXd found = evaluator->best_coordinates();
+  double best = (1.0 - kBetter) * evaluator->best_cost();
+  Eigen::VectorXd better;
+  for (int i = 0; i < found.size(); ++i) {
+    if (!evaluator->map().is_log(i)) continue;
+    for (const double value : LogSpaced(found.size() == 1 ? 4 : 2)) {
+      if (stop->Poll()) return better;
+      Eigen::VectorXd trial = found;
+      trial[i] = value;
+      // Costs are sums over frames: the first frames alone rule most trials out.
+      double cost = 0.0;
+      if (!evaluator->CostOverHorizon(trial, kShortHorizon, &cost) || cost >= best ||
+          !evaluator->CostOverHorizon(trial, evaluator->num_frames(), &cost) ||
+          cost >= best) {
+        continue;
+      }
+      best = cost;
+      better = trial;
+    }
+  }
+  return better;
+}
 
 StartingPoint ScreenStartingPoints(StopControl* stop, TrajectoryEvaluator* evaluator) {
   return Screen(stop, evaluator).Run();

@@ -48,6 +48,11 @@ StartingPoint FindStartingPoint(const Scene& scene, const Observations& observat
 // start at 0.
 StartingPoint ScreenStartingPoints(StopControl* stop, TrajectoryEvaluator* evaluator);
 
+// Looks for log-spaced values of single parameters, the others as at the best point so
+// far, that give a lower cost than that point.
+// @return  the coordinates of the best such trial point; empty if there is none
+Eigen::VectorXd FindBetterTrialPoint(StopControl* stop, TrajectoryEvaluator* evaluator);
+
 }  // namespace dpe
 
 #endif  // DPE_ESTIMATION_STARTING_POINT_H_

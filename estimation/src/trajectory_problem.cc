@@ -1,6 +1,7 @@
 #include "dpe/estimation/trajectory_problem.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,7 @@ class CachedCostFunction : public ceres::CostFunction {
   bool Evaluate(double const* const* /*parameters*/, double* residuals,
                 double** jacobians) const override {
     const TrajectoryEvaluator& evaluator = problem_->evaluator_;
-    if (!evaluator.ok()) return false;
+    if (!problem_->point_ok_) return false;
     const int rows = num_residuals();
     std::copy_n(evaluator.residuals().data() + first_row_, rows, residuals);
     if (jacobians == nullptr) return true;
@@ -91,6 +92,7 @@ ceres::Problem::Options TrajectoryProblem::ProblemOptions() {
 void TrajectoryProblem::set_coordinates(const Eigen::VectorXd& coordinates) {
   // Ceres holds pointers into the vector: assign in place.
   std::copy_n(coordinates.data(), coordinates_.size(), coordinates_.data());
+  step_origin_.resize(0);
 }
 
 double* TrajectoryProblem::block_coordinates(int block) {
@@ -101,8 +103,21 @@ double* TrajectoryProblem::block_coordinates(int block) {
 void TrajectoryProblem::PrepareForEvaluation(bool evaluate_jacobians,
                                              bool /*new_point*/) {
   jacobian_ok_ = false;
-  if (!evaluator_.Evaluate(coordinates_)) return;
-  if (evaluate_jacobians) jacobian_ok_ = evaluator_.EvaluateJacobian();
+  point_ok_ = !StepIsTooLong() && evaluator_.Evaluate(coordinates_);
+  if (!point_ok_ || !evaluate_jacobians) return;
+  jacobian_ok_ = evaluator_.EvaluateJacobian();
+  step_origin_ = coordinates_;
+}
+
+bool TrajectoryProblem::StepIsTooLong() const {
+  if (step_origin_.size() == 0) return false;
+  for (int i = 0; i < coordinates_.size(); ++i) {
+    if (evaluator_.map().is_log(i) &&
+        std::abs(coordinates_[i] - step_origin_[i]) > std::log(kMaxFactor)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 ceres::FirstOrderFunction* TrajectoryProblem::NewFirstOrderFunction() {

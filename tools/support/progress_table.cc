@@ -80,6 +80,7 @@ void ProgressTable::EraseLine() const {
 }
 
 void ProgressTable::PrintIteration(const IterationReport& report) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   EraseLine();
   line_is_drawn_ = false;
   std::printf("%9d %12.5g %12.5g %10.3g %9.2f%s\n", report.iteration, report.cost,
@@ -91,7 +92,9 @@ void ProgressTable::PrintIteration(const IterationReport& report) {
 }
 
 void ProgressTable::Tick(double seconds) {
-  if (!is_terminal_ || seconds - last_tick_ < kTickInterval) return;
+  if (!is_terminal_) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (seconds - last_tick_ < kTickInterval) return;
   last_tick_ = seconds;
   std::printf("\riteration %d, %.1f s ...", next_iteration_, seconds);
   std::fflush(stdout);

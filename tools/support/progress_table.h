@@ -2,6 +2,7 @@
 #ifndef DPE_TOOLS_SUPPORT_PROGRESS_TABLE_H_
 #define DPE_TOOLS_SUPPORT_PROGRESS_TABLE_H_
 
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ class ProgressTable {
   void EraseLine() const;
 
   bool is_terminal_;
+  std::mutex mutex_;
   bool line_is_drawn_ = false;
   int next_iteration_ = 0;
   double last_tick_ = 0.0;  // s

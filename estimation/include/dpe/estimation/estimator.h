@@ -46,7 +46,12 @@ struct EstimatorOptions {
   double init_perturbation = 0.0;  // multiply the start by exp(this * N(0,1)), seeded
   std::uint64_t seed = 0;          // of the perturbation
   int max_screen_parameters = 8;   // for kAuto, see there
-  int max_iterations = -1;         // negative: 200 for LM, 5000 for L-BFGS
+  // With at most this many parameters the fit is checked against log-spaced trial
+  // values after it has converged, and repeated from a better one if there is any; a
+  // start that cannot be simulated is replaced by the screen's best. Notes say so. 0
+  // turns it off.
+  int max_checked_parameters = 3;
+  int max_iterations = -1;  // negative: 200 for LM, 5000 for L-BFGS
   double max_seconds = 1e9;
   int num_threads = 1;
   int num_frames = 0;  // frames to fit; <= 0: as many as were observed
@@ -59,7 +64,7 @@ struct EstimatorOptions {
   // is only rounding error. Relative to the scene's size of a few metres.
   double rms_tolerance = 1e-12;
   // As in ceres::Solver::Options.
-  double function_tolerance = 1e-14;
+  double function_tolerance = 1e-12;
   double gradient_tolerance = 1e-18;
   double parameter_tolerance = 1e-12;
 

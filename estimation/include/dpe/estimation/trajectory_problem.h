@@ -4,7 +4,10 @@
 // (one ceres block per ParameterBlock, in the coordinates of ParameterMap). One
 // ceres::EvaluationCallback runs the rollout, and the derivative pass when Jacobians
 // are asked for; the cost functions only copy from it. A rollout that fails makes them
-// return false, which Ceres takes as a rejected step.
+// return false, which Ceres takes as a rejected step. So does a trial step that changes
+// a positive parameter by more than a factor of kMaxFactor: a linear model in the
+// logarithm says nothing that far away, and what lies there is mostly flat, so that an
+// optimiser would not find back.
 #ifndef DPE_ESTIMATION_TRAJECTORY_PROBLEM_H_
 #define DPE_ESTIMATION_TRAJECTORY_PROBLEM_H_
 
@@ -19,6 +22,9 @@ namespace dpe {
 
 class TrajectoryProblem : private ceres::EvaluationCallback {
  public:
+  // The largest change of a positive parameter in one least-squares step.
+  static constexpr double kMaxFactor = 100.0;
+
   // As the constructor of TrajectoryEvaluator.
   TrajectoryProblem(const Scene& scene, TrajectoryCosts costs,
                     const TrajectoryEvaluatorOptions& options = {});
@@ -47,10 +53,14 @@ class TrajectoryProblem : private ceres::EvaluationCallback {
  private:
   void PrepareForEvaluation(bool evaluate_jacobians, bool new_point) override;
   ceres::Problem::Options ProblemOptions();
+  bool StepIsTooLong() const;
 
   TrajectoryEvaluator evaluator_;
   Eigen::VectorXd coordinates_;
   ceres::Problem least_squares_;
+  // The point of the last Jacobian, which trial steps start from; empty: none yet.
+  Eigen::VectorXd step_origin_;
+  bool point_ok_ = false;
   bool jacobian_ok_ = false;
 
   friend class CachedCostFunction;
