@@ -32,13 +32,17 @@ class ProgressCallback : public ceres::IterationCallback {
       context_->num_iterations = first_iteration_ + s.iteration;
       IterationReport report;
       report.iteration = context_->num_iterations;
-      report.cost = s.cost;
+      // A rejected step's own cost would only confuse; it may be infinite.
+      report.cost = s.step_is_successful
+                        ? s.cost
+                        : context_->problem->evaluator()->best_cost();
       report.step_norm = s.step_norm;
       report.gradient_max_norm = s.gradient_max_norm;
       report.step_accepted = s.step_is_successful;
       context_->Report(report);
     }
-    if (context_->stop->Poll() || s.cost <= context_->converged_cost) {
+    if (context_->stop->Poll() ||
+        context_->problem->evaluator()->best_cost() <= context_->converged_cost) {
       return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
     }
     return ceres::SOLVER_CONTINUE;
