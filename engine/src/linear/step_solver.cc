@@ -10,7 +10,7 @@ constexpr int kRestart = 30;
 constexpr int kMaxCycles = 4;
 // The relative residual that counts as rounding level, and the one that is still
 // accepted when the iteration can get no further.
-constexpr double kTarget = 1e-15;
+constexpr double kTarget = 1e-14;
 constexpr double kAccept = 1e-12;
 
 using ConstVector = Eigen::Map<const Eigen::VectorXd>;
@@ -45,7 +45,7 @@ bool StepSolver::Solve(const double* b, double* z, bool transposed) {
   if (has_lu_) return SolveByLu(b, z, transposed);
   if (symmetric_) {
     cholesky_.Solve(b, z);
-    return true;
+    return ConstVector(z, pattern_.num_rows()).allFinite();
   }
   if (SolveByGmres(b, z, transposed)) return true;
   return FactorizeLu() && SolveByLu(right_.data(), z, transposed);

@@ -31,7 +31,8 @@ class StepSolver {
   const std::vector<double>& values() const { return values_; }
 
   // @param symmetric  the caller knows that A is symmetric
-  // @return           false if the matrix is singular or not finite
+  // @return           false if the matrix is found to be singular; one that is not
+  //                   finite may only show in Solve
   bool Factorize(bool symmetric);
 
   // z = A^{-1} b, or A^{-T} b if `transposed`; b and z may be the same array. False if

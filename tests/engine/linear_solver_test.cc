@@ -1,0 +1,171 @@
+// The linear solvers against dense ones, on well-behaved, non-symmetric, indefinite and
+// singular matrices.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "dpe/engine/sensitivity.h"
+#include "linear/block_pattern.h"
+#include "linear/block_solver.h"
+#include "linear/multiply_many.h"
+#include "linear/step_solver.h"
+#include "support/derivative_checker.h"
+
+namespace dpe::test {
+namespace {
+
+// A ring of nodes with a few chords.
+BlockPattern RingPattern(int num_nodes) {
+  std::vector<std::pair<int, int>> couplings = {{-1, 2}};  // fixed vertices are skipped
+  for (int i = 0; i < num_nodes; ++i) {
+    couplings.emplace_back(i, (i + 1) % num_nodes);
+    couplings.emplace_back((i + 1) % num_nodes, i);
+    couplings.emplace_back(i, (i + 5) % num_nodes);
+  }
+  return BlockPattern(num_nodes, couplings);
+}
+
+Eigen::MatrixXd Dense(const BlockPattern& pattern, const std::vector<double>& values) {
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(pattern.num_rows(), pattern.num_rows());
+  for (int j = 0; j < pattern.num_rows(); ++j) {
+    for (int k = pattern.column_starts()[j]; k < pattern.column_starts()[j + 1]; ++k) {
+      a(pattern.row_indices()[k], j) = values[k];
+    }
+  }
+  return a;
+}
+
+// Random blocks; `skew` scales the non-symmetric part, `shift` the diagonal.
+void Fill(const BlockPattern& pattern, double skew, double shift,
+          std::vector<double>* values) {
+  std::mt19937 generator(4);
+  std::normal_distribution<double> normal;
+  std::fill(values->begin(), values->end(), 0.0);
+  for (int j = 0; j < pattern.num_nodes(); ++j) {
+    for (int k = pattern.block_starts()[j]; k < pattern.block_starts()[j + 1]; ++k) {
+      const int i = pattern.block_rows()[k];
+      Eigen::Matrix3d block;
+      for (double& entry : block.reshaped()) entry = normal(generator);
+      Eigen::Matrix3d perturbation;
+      for (double& entry : perturbation.reshaped()) entry = normal(generator);
+      if (i > j) continue;  // the upper triangle decides
+      if (i == j) {
+        block =
+            (block + block.transpose()).eval() + shift * Eigen::Matrix3d::Identity();
+      }
+      AddBlock(pattern.Find(i, j), block + skew * perturbation, values->data());
+      if (i < j) AddBlock(pattern.Find(j, i), block.transpose(), values->data());
+    }
+  }
+}
+
+constexpr int kNodes = 40;
+
+struct SolverCase {
+  std::string name;
+  double skew;
+  double shift;
+};
+
+class StepSolverTest : public testing::TestWithParam<SolverCase> {};
+
+TEST_P(StepSolverTest, SolvesBothWaysToRoundingLevel) {
+  const BlockPattern pattern = RingPattern(kNodes);
+  StepSolver solver(pattern);
+  Fill(pattern, GetParam().skew, GetParam().shift, &solver.values());
+  const Eigen::MatrixXd a = Dense(pattern, solver.values());
+  const Eigen::VectorXd b = RandomVector(pattern.num_rows(), 1);
+  ASSERT_TRUE(solver.Factorize(GetParam().skew == 0.0));
+  for (const bool transposed : {false, true}) {
+    const Eigen::MatrixXd op = transposed ? Eigen::MatrixXd(a.transpose()) : a;
+    Eigen::VectorXd z(b.size());
+    ASSERT_TRUE(solver.Solve(b.data(), z.data(), transposed));
+    EXPECT_LT((op * z - b).norm(), 1e-12 * b.norm());
+    const Eigen::VectorXd exact = op.fullPivLu().solve(b);
+    EXPECT_LT((z - exact).norm(), 1e-9 * exact.norm());
+    Eigen::VectorXd in_place = b;
+    ASSERT_TRUE(solver.Solve(in_place.data(), in_place.data(), transposed));
+    EXPECT_EQ(in_place, z);
+  }
+  Eigen::VectorXd zero = Eigen::VectorXd::Zero(b.size());
+  ASSERT_TRUE(solver.Solve(zero.data(), zero.data(), false));
+  EXPECT_EQ(zero.norm(), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Matrices, StepSolverTest,
+                         testing::Values(SolverCase{"symmetric", 0.0, 20.0},
+                                         SolverCase{"slightly_skew", 0.05, 20.0},
+                                         SolverCase{"very_skew", 3.0, 20.0},
+                                         SolverCase{"indefinite_symmetric", 0.0, 0.5},
+                                         SolverCase{"indefinite_skew", 0.5, 0.5}),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(StepSolverTest, SingularAndNonFiniteMatricesAreReported) {
+  const BlockPattern pattern = RingPattern(kNodes);
+  StepSolver solver(pattern);
+  std::fill(solver.values().begin(), solver.values().end(), 0.0);
+  EXPECT_FALSE(solver.Factorize(true));
+  Eigen::VectorXd z = RandomVector(pattern.num_rows(), 1);
+  for (const bool symmetric : {true, false}) {
+    Fill(pattern, 0.0, 20.0, &solver.values());
+    solver.values()[0] = std::nan("");
+    EXPECT_FALSE(solver.Factorize(symmetric) &&
+                 solver.Solve(z.data(), z.data(), false));
+  }
+  // And the solver is usable again afterwards.
+  Fill(pattern, 0.1, 20.0, &solver.values());
+  ASSERT_TRUE(solver.Factorize(false));
+  z = RandomVector(pattern.num_rows(), 1);
+  ASSERT_TRUE(solver.Solve(z.data(), z.data(), false));
+  z[3] = std::nan("");
+  EXPECT_FALSE(solver.Solve(z.data(), z.data(), false));
+}
+
+TEST(BlockSolverTest, DenseAndColumnwiseAgreeWithTheMatrix) {
+  const BlockPattern pattern = RingPattern(kNodes);
+  StepSolver step_solver(pattern);
+  Fill(pattern, 0.3, 20.0, &step_solver.values());
+  const Eigen::MatrixXd a = Dense(pattern, step_solver.values());
+  for (const int count : {2, 50}) {  // column by column, and dense
+    BlockSolver solver(pattern);
+    ASSERT_TRUE(solver.Prepare(&step_solver, false, count));
+    EXPECT_EQ(solver.thread_safe(), count == 50);
+    for (const bool transposed : {false, true}) {
+      RowMajorMatrix right(pattern.num_rows(), count);
+      right.reshaped() = RandomVector(static_cast<int>(right.size()), 5);
+      RowMajorMatrix z = right;
+      ASSERT_TRUE(solver.Solve(z.data(), count, transposed));
+      const Eigen::MatrixXd op = transposed ? Eigen::MatrixXd(a.transpose()) : a;
+      const Eigen::MatrixXd product = op * z;
+      EXPECT_LT((product - right).norm(), 1e-12 * right.norm());
+    }
+  }
+}
+
+TEST(BlockPatternTest, ProductsMatchTheDenseMatrix) {
+  const BlockPattern pattern = RingPattern(kNodes);
+  std::vector<double> values(pattern.num_nonzeros());
+  Fill(pattern, 0.7, 3.0, &values);
+  const Eigen::MatrixXd a = Dense(pattern, values);
+  const Eigen::VectorXd x = RandomVector(pattern.num_rows(), 2);
+  Eigen::VectorXd y(x.size());
+  pattern.Multiply(values.data(), x.data(), y.data());
+  EXPECT_LT((y - a * x).norm(), 1e-13 * y.norm());
+  pattern.MultiplyTransposed(values.data(), x.data(), y.data());
+  EXPECT_LT((y - a.transpose() * x).norm(), 1e-13 * y.norm());
+  for (const bool transposed : {false, true}) {
+    RowMajorMatrix in(pattern.num_rows(), 7);
+    in.reshaped() = RandomVector(static_cast<int>(in.size()), 6);
+    RowMajorMatrix out = RowMajorMatrix::Ones(in.rows(), in.cols());
+    AddMultiplyMany(pattern, values.data(), transposed, in.data(), 7, out.data());
+    const Eigen::MatrixXd op = transposed ? Eigen::MatrixXd(a.transpose()) : a;
+    const Eigen::MatrixXd expected =
+        op * in + Eigen::MatrixXd::Ones(in.rows(), in.cols());
+    EXPECT_LT((out - expected).norm(), 1e-13 * expected.norm());
+  }
+}
+
+}  // namespace
+}  // namespace dpe::test
