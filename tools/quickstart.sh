@@ -61,9 +61,6 @@ case "$status" in
   *) echo "It ended with exit code $status." ;;
 esac
 if [[ -n "$results" ]]; then
-  echo "The results are in $PWD/$results:"
-  for file in "$results"/*; do
-    echo "  ${file##*/}"
-  done
+  echo "The results are in $PWD/$results"
 fi
 exit "$status"
