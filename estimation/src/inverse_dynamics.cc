@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "sparse_least_squares.h"
@@ -12,6 +13,12 @@ namespace {
 
 // Gauss-Newton steps for the products of unknowns; it converges quadratically.
 constexpr int kMaxGaussNewtonIterations = 30;
+
+// Gauss-Newton has converged when the residual changes by less than this fraction, or
+// the parameters (their norm) by less than that one: quadratic convergence makes the
+// step after it one of rounding.
+constexpr double kConverged = 1e-3;
+constexpr double kRoundingStep = 1e-9;
 
 // Corrections with the same factorization: each gains digits until rounding.
 constexpr int kMaxRefinements = 3;
@@ -102,27 +109,51 @@ class InverseDynamics {
     }
   }
 
-  // Gauss-Newton; a single step if the equations are linear. Each step is refined with
-  // its own factorization. False if a factorization failed.
+  // One solve if the equations are linear, else Gauss-Newton from 0. False if a
+  // factorization failed.
   bool Iterate() {
-    const int max_iterations = HasProducts() ? kMaxGaussNewtonIterations : 1;
+    if (!HasProducts()) return GaussNewtonStep(/*refine=*/true);
+    Eigen::VectorXd best = p_;
+    double best_norm = std::numeric_limits<double>::infinity();
+    double previous_norm = best_norm;
+    bool converged = false;
+    for (int i = 0; i < kMaxGaussNewtonIterations && !converged; ++i) {
+      if (!GaussNewtonStep(/*refine=*/false)) return false;
+      // The first steps may well raise the residual: products of unknowns that are
+      // still 0 are left out of the linear model.
+      const double norm = result_.residual_norm;
+      converged = step_norm_ <= kRoundingStep * p_.norm() ||
+                  std::abs(norm - previous_norm) <= kConverged * norm;
+      previous_norm = norm;
+      if (norm < best_norm) {
+        best_norm = norm;
+        best = p_;
+      }
+    }
+    if (!converged) {
+      p_ = best;
+      result_.residual_norm = best_norm;
+      result_.notes.push_back(
+          "inverse dynamics: the iteration for products of unknowns (damping with mass "
+          "and stiffness, wind with drag) did not converge; its best point is a start "
+          "only");
+    }
+    return true;
+  }
+
+  bool GaussNewtonStep(bool refine) {
     Eigen::VectorXd residual;
     Eigen::SparseMatrix<double> jacobian;
-    double previous_norm = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < max_iterations; ++i) {
-      equations_.Evaluate(p_, &residual, &jacobian);
-      const double norm = residual.norm();
-      // After the first steps the residual falls until only rounding moves it.
-      if (i > 2 && norm >= previous_norm * (1.0 - 1e-6)) break;
-      previous_norm = norm;
-      const SparseLeastSquares factored(jacobian);
-      if (!factored.ok()) return false;
-      p_ += factored.Solve(-residual);
-      ++result_.iterations;
-      if (i + 1 == max_iterations || !HasProducts()) Refine(factored);
-      is_dead_.assign(layout_.size(), 0);
-      for (int j = 0; j < layout_.size(); ++j) is_dead_[j] = factored.is_dead(j);
-    }
+    equations_.Evaluate(p_, &residual, &jacobian);
+    const SparseLeastSquares factored(jacobian);
+    if (!factored.ok()) return false;
+    const Eigen::VectorXd step = factored.Solve(-residual);
+    step_norm_ = step.norm();
+    p_ += step;
+    ++result_.iterations;
+    is_dead_.assign(layout_.size(), 0);
+    for (int j = 0; j < layout_.size(); ++j) is_dead_[j] = factored.is_dead(j);
+    if (refine) Refine(factored);
     equations_.Evaluate(p_, &residual, nullptr);
     result_.residual_norm = residual.norm();
     return true;
@@ -234,6 +265,7 @@ class InverseDynamics {
   std::vector<double> total_mass_;
   std::vector<int> gauged_objects_;
   Eigen::VectorXd p_;
+  double step_norm_ = 0.0;  // of the last Gauss-Newton step
   std::vector<char> is_dead_;
   InverseDynamicsResult result_;
 };

@@ -33,9 +33,8 @@ class ProgressCallback : public ceres::IterationCallback {
       IterationReport report;
       report.iteration = context_->num_iterations;
       // A rejected step's own cost would only confuse; it may be infinite.
-      report.cost = s.step_is_successful
-                        ? s.cost
-                        : context_->problem->evaluator()->best_cost();
+      report.cost =
+          s.step_is_successful ? s.cost : context_->problem->evaluator()->best_cost();
       report.step_norm = s.step_norm;
       report.gradient_max_norm = s.gradient_max_norm;
       report.step_accepted = s.step_is_successful;

@@ -1,0 +1,232 @@
+#include "dpe/estimation/trajectory_problem.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "dpe/engine/simulator.h"
+#include "support/derivative_checker.h"
+#include "support/test_scenes.h"
+
+namespace dpe {
+namespace {
+
+constexpr int kFrames = 8;
+
+// Away from the answer: the target is the motion of another, perturbed scene.
+TrajectoryCosts CostsFor(const Scene& scene) {
+  Scene other = scene;
+  test::Perturb(5, &other);
+  return MakePositionCosts(scene, ObserveAll(Simulator(other).Simulate(kFrames)),
+                           kFrames);
+}
+
+Scene SceneWithEverythingEstimated(const std::string& name) {
+  Scene scene = test::MakeDerivativeScene(name, 4);
+  test::Perturb(3, &scene);
+  test::EstimateEverything(ParameterMode::kLocal, &scene);
+  return scene;
+}
+
+Eigen::VectorXd StartOf(const Scene& scene, TrajectoryEvaluator* evaluator) {
+  return evaluator->map().ToCoordinates(evaluator->layout().Extract(scene));
+}
+
+// Residuals as Ceres gets them from the cost functions.
+Eigen::VectorXd CeresResiduals(TrajectoryProblem* problem, const Eigen::VectorXd& q) {
+  problem->set_coordinates(q);
+  std::vector<double> residuals;
+  EXPECT_TRUE(
+      problem->least_squares()->Evaluate({}, nullptr, &residuals, nullptr, nullptr));
+  return Eigen::Map<Eigen::VectorXd>(residuals.data(), residuals.size());
+}
+
+// The product of Ceres's Jacobian (rows and columns compressed) with a vector.
+Eigen::VectorXd CeresJacobianTimes(TrajectoryProblem* problem, const Eigen::VectorXd& q,
+                                   const Eigen::VectorXd& direction) {
+  problem->set_coordinates(q);
+  ceres::Problem::EvaluateOptions options;
+  for (size_t b = 0; b < problem->layout().blocks().size(); ++b) {
+    options.parameter_blocks.push_back(problem->block_coordinates(static_cast<int>(b)));
+  }
+  ceres::CRSMatrix jacobian;
+  EXPECT_TRUE(problem->least_squares()->Evaluate(options, nullptr, nullptr, nullptr,
+                                                 &jacobian));
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(jacobian.num_rows);
+  for (int row = 0; row < jacobian.num_rows; ++row) {
+    for (int k = jacobian.rows[row]; k < jacobian.rows[row + 1]; ++k) {
+      product[row] += jacobian.values[k] * direction[jacobian.cols[k]];
+    }
+  }
+  return product;
+}
+
+class TrajectoryProblemTest
+    : public ::testing::TestWithParam<std::pair<std::string, JacobianMethod>> {};
+
+TEST_P(TrajectoryProblemTest, CeresJacobianAgreesWithDifferencesOfCeresResiduals) {
+  const auto [name, method] = GetParam();
+  const Scene scene = SceneWithEverythingEstimated(name);
+  TrajectoryEvaluatorOptions options;
+  options.jacobian = method;
+  TrajectoryProblem problem(scene, CostsFor(scene), options);
+  const Eigen::VectorXd q = StartOf(scene, problem.evaluator());
+  const Eigen::VectorXd direction = test::RandomVector(static_cast<int>(q.size()), 9);
+  const auto check = test::CheckDirectionalDerivative(
+      [&](const Eigen::VectorXd& x) { return CeresResiduals(&problem, x); }, q,
+      direction, CeresJacobianTimes(&problem, q, direction));
+  EXPECT_LT(check.relative_error, 1e-6) << check;
+  EXPECT_GT(check.norm, 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    ScenesAndMethods, TrajectoryProblemTest,
+    ::testing::Values(std::make_pair("flag", JacobianMethod::kTangent),
+                      std::make_pair("flag", JacobianMethod::kAdjoint),
+                      std::make_pair("two_objects", JacobianMethod::kTangent),
+                      std::make_pair("two_objects", JacobianMethod::kAdjoint)),
+    [](const auto& info) {
+      return info.param.first +
+             (info.param.second == JacobianMethod::kTangent ? "_tangent" : "_adjoint");
+    });
+
+TEST(TrajectoryEvaluatorTest, GradientIsJacobianTransposedTimesResiduals) {
+  const Scene scene = SceneWithEverythingEstimated("two_objects");
+  TrajectoryEvaluator evaluator(scene, CostsFor(scene));
+  ASSERT_TRUE(evaluator.Evaluate(StartOf(scene, &evaluator)));
+  ASSERT_TRUE(evaluator.EvaluateJacobian());
+  Eigen::VectorXd gradient;
+  ASSERT_TRUE(evaluator.EvaluateGradient(&gradient));
+  const Eigen::VectorXd expected =
+      evaluator.jacobian().transpose() * evaluator.residuals();
+  EXPECT_LT((gradient - expected).norm(), 1e-10 * expected.norm());
+  EXPECT_GT(expected.norm(), 0.0);
+}
+
+TEST(TrajectoryEvaluatorTest, OneRolloutPerPointAndOneDerivativePassWhenAsked) {
+  const Scene scene = SceneWithEverythingEstimated("flag");
+  TrajectoryProblem problem(scene, CostsFor(scene));
+  TrajectoryEvaluator* evaluator = problem.evaluator();
+  const Eigen::VectorXd q = StartOf(scene, evaluator);
+  CeresResiduals(&problem, q);
+  EXPECT_EQ(evaluator->num_rollouts(), 1);
+  EXPECT_EQ(evaluator->num_derivative_passes(), 0);
+  CeresJacobianTimes(&problem, q, q);
+  CeresResiduals(&problem, q);
+  EXPECT_EQ(evaluator->num_rollouts(), 1);
+  EXPECT_EQ(evaluator->num_derivative_passes(), 1);
+  CeresResiduals(&problem, 1.01 * q);
+  EXPECT_EQ(evaluator->num_rollouts(), 2);
+}
+
+TEST(TrajectoryEvaluatorTest, RemembersTheBestPoint) {
+  const Scene scene = SceneWithEverythingEstimated("flag");
+  TrajectoryEvaluator evaluator(scene, CostsFor(scene));
+  const Eigen::VectorXd q = StartOf(scene, &evaluator);
+  const Eigen::VectorXd other = q.array() + 0.5;
+  ASSERT_TRUE(evaluator.Evaluate(q));
+  const double cost = evaluator.cost();
+  ASSERT_TRUE(evaluator.Evaluate(other));
+  const bool first_is_better = cost < evaluator.cost();
+  EXPECT_EQ(evaluator.best_cost(), std::min(cost, evaluator.cost()));
+  EXPECT_EQ(evaluator.best_coordinates(), first_is_better ? q : other);
+}
+
+TEST(TrajectoryEvaluatorTest, HorizonCostsAddUpToTheCost) {
+  const Scene scene = SceneWithEverythingEstimated("flag");
+  TrajectoryEvaluator evaluator(scene, CostsFor(scene));
+  const Eigen::VectorXd q = StartOf(scene, &evaluator);
+  double part = 0.0, whole = 0.0;
+  ASSERT_TRUE(evaluator.CostOverHorizon(q, 4, &part));
+  ASSERT_TRUE(evaluator.CostOverHorizon(q, kFrames, &whole));
+  ASSERT_TRUE(evaluator.Evaluate(q));
+  EXPECT_NEAR(whole, evaluator.cost(), 1e-12 * whole);
+  const int rows = evaluator.first_row(3);  // costs of frames 1, 2 and 3
+  EXPECT_NEAR(part, 0.5 * evaluator.residuals().head(rows).squaredNorm(), 1e-12 * part);
+  EXPECT_LT(part, whole);
+}
+
+TEST(TrajectoryProblemFailureTest, ARolloutThatBlowsUpMakesCeresEvaluationFail) {
+  Scene scene = test::MakeDerivativeScene("side", 4);
+  scene.integration_method = IntegrationMethod::kExplicitEuler;
+  ApplySettings("nG", &scene);
+  TrajectoryProblem problem(scene, CostsFor(scene));
+  problem.set_coordinates(Eigen::VectorXd::Constant(1, std::log(1e9)));
+  double cost = 0.0;
+  EXPECT_FALSE(problem.least_squares()->Evaluate({}, &cost, nullptr, nullptr, nullptr));
+  EXPECT_FALSE(problem.evaluator()->ok());
+  EXPECT_NE(problem.evaluator()->message(), "");
+  // A good point after a bad one works as ever.
+  problem.set_coordinates(Eigen::VectorXd::Constant(1, std::log(10.0)));
+  EXPECT_TRUE(problem.least_squares()->Evaluate({}, &cost, nullptr, nullptr, nullptr));
+}
+
+TEST(TrajectoryProblemFailureTest, AnInterruptedRolloutIsNotRemembered) {
+  Scene scene = test::MakeDerivativeScene("side", 4);
+  ApplySettings("nG", &scene);
+  bool interrupt = true;
+  TrajectoryEvaluatorOptions options;
+  options.interrupted = [&] { return interrupt; };
+  TrajectoryEvaluator evaluator(scene, CostsFor(scene), options);
+  const Eigen::VectorXd q = Eigen::VectorXd::Constant(1, std::log(10.0));
+  EXPECT_FALSE(evaluator.Evaluate(q));
+  interrupt = false;
+  EXPECT_TRUE(evaluator.Evaluate(q));
+}
+
+// A residual of a user's own, on two frames' velocities.
+class SpeedChangeCost : public TrajectoryCost {
+ public:
+  SpeedChangeCost() : TrajectoryCost(1, {{0, 2}, {0, 5}}) {}
+
+  bool Evaluate(const Trajectory& trajectory, double* residuals,
+                std::vector<StateDerivative>* derivatives) const override {
+    const Eigen::MatrixXd& v = trajectory.velocities[0];
+    residuals[0] = v.col(5).sum() - 2.0 * v.col(2).sum();
+    for (const auto& [frame, weight] : {std::pair(5, 1.0), std::pair(2, -2.0)}) {
+      if (derivatives == nullptr) break;
+      StateDerivative d;
+      d.frame = frame;
+      d.d_position.resize(1, v.rows());
+      d.d_velocity = (weight * Eigen::RowVectorXd::Ones(v.rows())).eval().sparseView();
+      derivatives->push_back(d);
+    }
+    return true;
+  }
+};
+
+TEST(TrajectoryProblemCostTest, TakesCostsOnSeveralFramesAndOnVelocities) {
+  const Scene scene = SceneWithEverythingEstimated("side");
+  for (const JacobianMethod method :
+       {JacobianMethod::kTangent, JacobianMethod::kAdjoint}) {
+    TrajectoryCosts costs = CostsFor(scene);
+    costs.push_back(std::make_unique<SpeedChangeCost>());
+    TrajectoryEvaluatorOptions options;
+    options.jacobian = method;
+    TrajectoryProblem problem(scene, std::move(costs), options);
+    const Eigen::VectorXd q = StartOf(scene, problem.evaluator());
+    const Eigen::VectorXd direction =
+        test::RandomVector(static_cast<int>(q.size()), 10);
+    const Eigen::VectorXd analytic = CeresJacobianTimes(&problem, q, direction);
+    const auto check = test::CheckDirectionalDerivative(
+        [&](const Eigen::VectorXd& x) {
+          return Eigen::VectorXd(CeresResiduals(&problem, x).tail<1>());
+        },
+        q, direction, analytic.tail<1>());
+    EXPECT_LT(check.relative_error, 1e-6) << check;
+  }
+}
+
+TEST(TrajectoryProblemCostTest, RefusesCostsOnObjectsThatAreNotSimulated) {
+  Scene scene = test::MakeDerivativeScene("two_objects", 3);
+  ApplySettings("nn,nL", &scene);
+  TrajectoryCosts costs;
+  costs.push_back(std::make_unique<SpeedChangeCost>());
+  EXPECT_THROW(TrajectoryProblem(scene, std::move(costs)), SceneError);
+}
+
+}  // namespace
+}  // namespace dpe
