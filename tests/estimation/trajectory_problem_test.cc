@@ -177,6 +177,45 @@ TEST(TrajectoryProblemFailureTest, AnInterruptedRolloutIsNotRemembered) {
   EXPECT_TRUE(evaluator.Evaluate(q));
 }
 
+// Counts how often a rollout got as far as its costs.
+class CountingCost : public TrajectoryCost {
+ public:
+  explicit CountingCost(int* count) : TrajectoryCost(1, {{0, 1}}), count_(count) {}
+
+  bool Evaluate(const Trajectory& /*trajectory*/, double* residuals,
+                std::vector<StateDerivative>* derivatives) const override {
+    residuals[0] = 0.0;
+    if (derivatives == nullptr) ++*count_;
+    return true;
+  }
+
+ private:
+  int* count_;
+};
+
+TEST(TrajectoryProblemFailureTest, StepsWhoseRolloutBlowsUpAreRejectedByCeres) {
+  Scene scene = test::MakeDerivativeScene("side", 5);
+  scene.integration_method = IntegrationMethod::kSymplecticEuler;
+  ApplySettings("nL", &scene);
+  int num_reached = 0;
+  TrajectoryCosts costs =
+      MakePositionCosts(scene, ObserveAll(Simulator(scene).Simulate(40)), 40);
+  costs.push_back(std::make_unique<CountingCost>(&num_reached));
+  TrajectoryProblem problem(scene, std::move(costs));
+  const double start = std::log(1.0);
+  problem.set_coordinates(
+      Eigen::VectorXd::Constant(problem.evaluator()->num_parameters(), start));
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.max_num_iterations = 30;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, problem.least_squares(), &summary);
+  EXPECT_TRUE(summary.IsSolutionUsable()) << summary.message;
+  EXPECT_LT(summary.final_cost, summary.initial_cost);
+  EXPECT_LT(num_reached, problem.evaluator()->num_rollouts());
+}
+
 // A residual of a user's own, on two frames' velocities.
 class SpeedChangeCost : public TrajectoryCost {
  public:
