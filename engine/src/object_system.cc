@@ -7,6 +7,7 @@
 #include "forces/drag.h"
 #include "forces/gravity.h"
 #include "forces/spring.h"
+#include "linear/ordering.h"
 
 namespace dpe {
 
@@ -23,24 +24,40 @@ ObjectSystem::ObjectSystem(const Scene& scene, int object,
     if (cloth.is_fixed[i]) {
       fixed_vertices_.push_back(i);
     } else {
-      node_of_vertex_[i] = static_cast<int>(free_vertices_.size());
       free_vertices_.push_back(i);
     }
   }
   SetParameters(scene);
   AddForceTerms(scene, cloth);
 
-  std::vector<std::pair<int, int>> pairs;
-  for (const auto& term : terms_) term->AppendCouplings(&pairs);
-  for (auto& [a, b] : pairs) {
-    a = node_of_vertex_[a];
-    b = node_of_vertex_[b];
-  }
-  pattern_ = BlockPattern(static_cast<int>(free_vertices_.size()), pairs);
+  BuildPattern();
   for (const auto& term : terms_) term->BindPattern(pattern_, node_of_vertex_);
   for (int i = 0; i < pattern_.num_nodes(); ++i)
     diagonal_.push_back(pattern_.Find(i, i));
   solver_ = std::make_unique<StepSolver>(pattern_);
+}
+
+// Numbers the unknowns in a fill-reducing order and builds the sparsity of their
+// system.
+void ObjectSystem::BuildPattern() {
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& term : terms_) term->AppendCouplings(&pairs);
+  const int num_nodes = static_cast<int>(free_vertices_.size());
+  const auto number_nodes = [&] {
+    for (int k = 0; k < num_nodes; ++k) node_of_vertex_[free_vertices_[k]] = k;
+    std::vector<std::pair<int, int>> nodes = pairs;
+    for (auto& [a, b] : nodes) {
+      a = node_of_vertex_[a];
+      b = node_of_vertex_[b];
+    }
+    return nodes;
+  };
+  std::vector<int> ordered;
+  for (int k : FillReducingOrder(num_nodes, number_nodes())) {
+    ordered.push_back(free_vertices_[k]);
+  }
+  free_vertices_ = ordered;
+  pattern_ = BlockPattern(num_nodes, number_nodes());
 }
 
 // The registration of force laws: a term exists only where the scene asks for it.

@@ -28,6 +28,7 @@ class ObjectSystem {
 
   int num_vertices() const { return static_cast<int>(node_of_vertex_.size()); }
   int num_coordinates() const { return 3 * num_vertices(); }
+  // Free vertices in the order of their unknowns.
   const std::vector<int>& free_vertices() const { return free_vertices_; }
   const std::vector<int>& node_of_vertex() const { return node_of_vertex_; }
   const BlockPattern& pattern() const { return pattern_; }
@@ -71,6 +72,7 @@ class ObjectSystem {
 
  private:
   void AddForceTerms(const Scene& scene, const ClothObject& object);
+  void BuildPattern();
 
   int object_;
   int steps_per_frame_;

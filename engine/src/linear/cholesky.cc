@@ -1,10 +1,11 @@
 #include "linear/cholesky.h"
 
-#include <cmath>
+#include <algorithm>
 #include <cstring>
 #include <new>
 
 #include "linear/serial_openmp.h"
+#include "linear/supernodal_solve.h"
 
 namespace dpe {
 
@@ -12,8 +13,9 @@ Cholesky::Cholesky(const BlockPattern& pattern) : pattern_(pattern) {
   cholmod_start(&common_);
   common_.print = 0;
   common_.supernodal = CHOLMOD_SUPERNODAL;
-  common_.nmethods = 1;  // nested dissection, the best of CHOLMOD's on cloth grids
-  common_.method[0].ordering = CHOLMOD_NESDIS;
+  common_.nmethods = 1;  // the pattern comes in a fill-reducing order
+  common_.method[0].ordering = CHOLMOD_NATURAL;
+  common_.postorder = 0;
   common_.final_ll = 1;  // L L^T: a negative pivot is a failure, not a factor
   std::memset(&matrix_, 0, sizeof(matrix_));
   matrix_.nrow = matrix_.ncol = pattern.num_rows();
@@ -32,9 +34,6 @@ Cholesky::Cholesky(const BlockPattern& pattern) : pattern_(pattern) {
 }
 
 Cholesky::~Cholesky() {
-  cholmod_free_dense(&solution_, &common_);
-  cholmod_free_dense(&work_y_, &common_);
-  cholmod_free_dense(&work_e_, &common_);
   cholmod_free_factor(&factor_, &common_);
   cholmod_finish(&common_);
 }
@@ -48,22 +47,15 @@ bool Cholesky::Factorize(const double* values) {
 }
 
 void Cholesky::Solve(const double* b, double* x) {
-  if (b != x) std::memcpy(x, b, sizeof(double) * pattern_.num_rows());
-  SolveMany(x, 1);
-}
-
-void Cholesky::SolveMany(double* columns, int count) {
-  cholmod_dense right;
-  std::memset(&right, 0, sizeof(right));
-  right.nrow = right.d = pattern_.num_rows();
-  right.ncol = count;
-  right.nzmax = right.nrow * count;
-  right.x = columns;
-  right.xtype = CHOLMOD_REAL;
-  right.dtype = CHOLMOD_DOUBLE;
-  cholmod_solve2(CHOLMOD_A, factor_, &right, nullptr, &solution_, nullptr, &work_y_,
-                 &work_e_, &common_);
-  std::memcpy(columns, solution_->x, sizeof(double) * right.nzmax);
+  SupernodalFactor factor;
+  factor.num_supernodes = static_cast<int>(factor_->nsuper);
+  factor.first_column = static_cast<const int*>(factor_->super);
+  factor.row_start = static_cast<const int*>(factor_->pi);
+  factor.value_start = static_cast<const int*>(factor_->px);
+  factor.row_indices = static_cast<const int*>(factor_->s);
+  factor.values = static_cast<const double*>(factor_->x);
+  if (b != x) std::copy_n(b, pattern_.num_rows(), x);
+  SolveSupernodal(factor, &work_, x);
 }
 
 }  // namespace dpe

@@ -87,18 +87,19 @@ bool StepSolver::SolveByGmres(const double* b, double* z, bool transposed) {
 double StepSolver::GmresCycle(const double* residual, double norm, double target,
                               double* z, bool transposed) {
   const int n = pattern_.num_rows();
-  basis_.resize(static_cast<size_t>(kRestart + 1) * n);
+  basis_.resize(static_cast<size_t>(2 * kRestart + 1) * n);
   double hessenberg[kRestart + 1][kRestart];
   double cosine[kRestart], sine[kRestart], g[kRestart + 1];
   const auto column = [&](int j) {
     return Vector(basis_.data() + static_cast<size_t>(j) * n, n);
   };
+  const auto preconditioned = [&](int j) { return column(kRestart + 1 + j); };
   column(0) = ConstVector(residual, n) / norm;
   g[0] = norm;
   int used = 0;
   for (int j = 0; j < kRestart; ++j) {
-    cholesky_.Solve(column(j).data(), work_.data());
-    Multiply(work_.data(), column(j + 1).data(), transposed);
+    cholesky_.Solve(column(j).data(), preconditioned(j).data());
+    Multiply(preconditioned(j).data(), column(j + 1).data(), transposed);
     for (int i = 0; i <= j; ++i) {
       hessenberg[i][j] = column(i).dot(column(j + 1));
       column(j + 1) -= hessenberg[i][j] * column(i);
@@ -120,18 +121,14 @@ double StepSolver::GmresCycle(const double* residual, double norm, double target
     if (std::abs(g[j + 1]) <= target || height == 0.0) break;
     column(j + 1) /= height;
   }
-  // z += S^{-1} V y with H y = g.
+  // z += S^{-1} V y with H y = g; S^{-1} V was kept, which saves a solve.
   double y[kRestart];
   for (int i = used - 1; i >= 0; --i) {
     y[i] = g[i];
     for (int k = i + 1; k < used; ++k) y[i] -= hessenberg[i][k] * y[k];
     y[i] /= hessenberg[i][i];
   }
-  Vector work(work_.data(), n);
-  work.setZero();
-  for (int i = 0; i < used; ++i) work += y[i] * column(i);
-  cholesky_.Solve(work_.data(), work_.data());
-  Vector(z, n) += work;
+  for (int i = 0; i < used; ++i) Vector(z, n) += y[i] * preconditioned(i);
   return used > 0 ? std::abs(g[used]) : norm;
 }
 
