@@ -34,7 +34,8 @@ ObjectSystem::ObjectSystem(const Scene& scene, int object,
   for (const auto& term : terms_) term->BindPattern(pattern_, node_of_vertex_);
   for (int i = 0; i < pattern_.num_nodes(); ++i)
     diagonal_.push_back(pattern_.Find(i, i));
-  solver_ = std::make_unique<StepSolver>(pattern_);
+  solver_context_ = std::make_shared<StepSolverContext>(pattern_);
+  solver_ = NewSolver();
 }
 
 // Numbers the unknowns in a fill-reducing order and builds the sparsity of their

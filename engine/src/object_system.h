@@ -32,7 +32,13 @@ class ObjectSystem {
   const std::vector<int>& free_vertices() const { return free_vertices_; }
   const std::vector<int>& node_of_vertex() const { return node_of_vertex_; }
   const BlockPattern& pattern() const { return pattern_; }
-  StepSolver& solver() { return *solver_; }
+  // A solver for passing use; one that a rollout keeps comes from NewSolver.
+  StepSolver* solver() { return solver_.get(); }
+  std::unique_ptr<StepSolver> NewSolver() const {
+    return std::make_unique<StepSolver>(solver_context_);
+  }
+  // Bytes that a kept solver takes.
+  size_t solver_bytes() const { return solver_context_->solver_bytes(); }
 
   const ObjectParameters& parameters() const { return parameters_; }
   // Columns of this object's parameters in the layout, and the same renumbered from 0.
@@ -84,6 +90,7 @@ class ObjectSystem {
   ParameterColumns columns_, local_columns_;
   BlockPattern pattern_;
   std::vector<BlockSlot> diagonal_;
+  std::shared_ptr<StepSolverContext> solver_context_;
   std::unique_ptr<StepSolver> solver_;
 };
 

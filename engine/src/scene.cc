@@ -16,6 +16,7 @@ constexpr MethodName kMethodNames[] = {
     {IntegrationMethod::kSymplecticEuler, "symplectic_euler"},
     {IntegrationMethod::kLinearlyImplicitEuler, "linearly_implicit_euler"},
     {IntegrationMethod::kImplicitEuler, "implicit_euler"},
+    {IntegrationMethod::kTrBdf2, "tr_bdf2"},
 };
 
 using TwoModes = std::pair<ParameterMode, ParameterMode>;  // mass, stiffness

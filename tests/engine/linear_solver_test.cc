@@ -73,7 +73,7 @@ class StepSolverTest : public testing::TestWithParam<SolverCase> {};
 
 TEST_P(StepSolverTest, SolvesBothWaysToRoundingLevel) {
   const BlockPattern pattern = RingPattern(kNodes);
-  StepSolver solver(pattern);
+  StepSolver solver(std::make_shared<StepSolverContext>(pattern));
   Fill(pattern, GetParam().skew, GetParam().shift, &solver.values());
   const Eigen::MatrixXd a = Dense(pattern, solver.values());
   const Eigen::VectorXd b = RandomVector(pattern.num_rows(), 1);
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Matrices, StepSolverTest,
 
 TEST(StepSolverTest, SingularAndNonFiniteMatricesAreReported) {
   const BlockPattern pattern = RingPattern(kNodes);
-  StepSolver solver(pattern);
+  StepSolver solver(std::make_shared<StepSolverContext>(pattern));
   std::fill(solver.values().begin(), solver.values().end(), 0.0);
   EXPECT_FALSE(solver.Factorize(true));
   Eigen::VectorXd z = RandomVector(pattern.num_rows(), 1);
@@ -123,9 +123,30 @@ TEST(StepSolverTest, SingularAndNonFiniteMatricesAreReported) {
   EXPECT_FALSE(solver.Solve(z.data(), z.data(), false));
 }
 
+TEST(StepSolverTest, AnEarlierFactorizationServesANearbyMatrix) {
+  const BlockPattern pattern = RingPattern(kNodes);
+  const auto context = std::make_shared<StepSolverContext>(pattern);
+  StepSolver solver(context), other(context);
+  const Eigen::VectorXd b = RandomVector(pattern.num_rows(), 1);
+  Eigen::VectorXd z(b.size());
+  for (const double shift : {20.0, 0.5}) {  // by Cholesky, and by LU
+    Fill(pattern, 0.0, shift, &solver.values());
+    ASSERT_TRUE(solver.Factorize(true));
+    // Another solver of the same context does not disturb it.
+    Fill(pattern, 0.2, 30.0, &other.values());
+    ASSERT_TRUE(other.Factorize(false));
+    ASSERT_TRUE(other.Solve(b.data(), z.data(), true));
+    Fill(pattern, 0.01, shift + 0.1, &solver.values());
+    ASSERT_TRUE(solver.KeepFactorization());
+    ASSERT_TRUE(solver.Solve(b.data(), z.data(), false));
+    const Eigen::MatrixXd a = Dense(pattern, solver.values());
+    EXPECT_LT((a * z - b).norm(), 1e-12 * b.norm());
+  }
+}
+
 TEST(BlockSolverTest, DenseAndColumnwiseAgreeWithTheMatrix) {
   const BlockPattern pattern = RingPattern(kNodes);
-  StepSolver step_solver(pattern);
+  StepSolver step_solver(std::make_shared<StepSolverContext>(pattern));
   Fill(pattern, 0.3, 20.0, &step_solver.values());
   const Eigen::MatrixXd a = Dense(pattern, step_solver.values());
   for (const int count : {2, 50}) {  // column by column, and dense

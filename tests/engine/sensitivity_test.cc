@@ -202,7 +202,8 @@ INSTANTIATE_TEST_SUITE_P(All, JacobianTest,
                          testing::Values(IntegrationMethod::kExplicitEuler,
                                          IntegrationMethod::kSymplecticEuler,
                                          IntegrationMethod::kLinearlyImplicitEuler,
-                                         IntegrationMethod::kImplicitEuler),
+                                         IntegrationMethod::kImplicitEuler,
+                                         IntegrationMethod::kTrBdf2),
                          [](const auto& info) {
                            return IntegrationMethodName(info.param);
                          });
@@ -212,7 +213,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::Values(IntegrationMethod::kExplicitEuler,
                                      IntegrationMethod::kSymplecticEuler,
                                      IntegrationMethod::kLinearlyImplicitEuler,
-                                     IntegrationMethod::kImplicitEuler),
+                                     IntegrationMethod::kImplicitEuler,
+                                     IntegrationMethod::kTrBdf2),
                      testing::ValuesIn(DerivativeSceneNames()), testing::Values(5, 50)),
     CaseName);
 

@@ -1,6 +1,7 @@
 // Block adjoint: for every residual row one adjoint vector (wx, wv), swept backward
-// together. With mu = wv + h wx (wv for explicit Euler) and A^T lambda = mu:
-//   wx += Rx^T lambda,  wv = Rv^T lambda (+ h wx, explicit Euler),  row += B^T lambda.
+// together, stage by stage (integrator.h). With mu = wv + c wx and A^T lambda = mu the
+// adjoint of the stage's input is (wx + Rx^T lambda, Rv^T lambda + p wx), and
+// row += B^T lambda.
 #include <algorithm>
 #include <atomic>
 #include <numeric>
@@ -19,9 +20,10 @@ constexpr int kBlockRows = 64;
 // A group of residual rows; column k of the matrices belongs to rows[k].
 struct AdjointBlock {
   std::vector<int> rows;
-  int last_frame = 0;                      // no row of the block depends on a later one
-  RowMajorMatrix wx, wv, lambda, wv_next;  // 3 nodes x rows
-  RowMajorMatrix gradient;                 // local columns x rows
+  int last_frame = 0;                 // no row of the block depends on a later one
+  RowMajorMatrix wx, wv, lambda;      // 3 nodes x rows
+  RowMajorMatrix wx_start, wv_start;  // what later stages leave to the step's start
+  RowMajorMatrix gradient;            // local columns x rows
 };
 
 class AdjointSweep {
@@ -47,23 +49,17 @@ class AdjointSweep {
   bool StepBack(int s) {
     const StepStates states =
         StatesOfStep(system_, *input_.tape, s, input_.scene->step_length(), &v0_);
-    integrator_->TangentStep(&system_, states, &linear_);
     const int steps_per_frame = input_.scene->steps_per_frame;
     int active = 0;
     while (active < static_cast<int>(blocks_.size()) &&
            blocks_[active].last_frame * steps_per_frame > s) {
       ++active;
     }
-    if (!linear_.a_is_mass && !solver_.Prepare(&system_.solver(), system_.IsSymmetric(),
-                                               active * kBlockRows)) {
-      return false;
+    for (int stage = integrator_->num_stages() - 1; stage >= 0; --stage) {
+      integrator_->TangentStage(stage, &system_, system_.solver(), states, &linear_);
+      if (!SolveStage(active, stage)) return false;
     }
-    std::atomic<bool> ok{true};
-    const bool serial = !linear_.a_is_mass && !solver_.thread_safe();
-    ParallelFor(serial ? 1 : input_.options->num_threads, active, [&](int b) {
-      if (!StepBlockBack(&blocks_[b])) ok = false;
-    });
-    return ok;
+    return true;
   }
 
   void Finish(RowMajorMatrix* jacobian) {
@@ -85,6 +81,31 @@ class AdjointSweep {
   }
 
  private:
+  bool SolveStage(int active, int stage) {
+    if (!linear_.a_is_mass && !solver_.Prepare(system_.solver(), system_.IsSymmetric(),
+                                               active * kBlockRows)) {
+      return false;
+    }
+    const bool last_of_two = stage > 0;
+    const bool first_of_two = stage == 0 && integrator_->num_stages() > 1;
+    std::atomic<bool> ok{true};
+    const bool serial = !linear_.a_is_mass && !solver_.thread_safe();
+    ParallelFor(serial ? 1 : input_.options->num_threads, active, [&](int b) {
+      AdjointBlock& block = blocks_[b];
+      if (!StepBlockBack(&block)) ok = false;
+      if (last_of_two) {
+        block.wx_start = linear_.start_weight * block.wx;
+        block.wv_start = linear_.start_weight * block.wv;
+        block.wx *= linear_.weight;
+        block.wv *= linear_.weight;
+      } else if (first_of_two) {
+        block.wx += block.wx_start;
+        block.wv += block.wv_start;
+      }
+    });
+    return ok;
+  }
+
   // Rows with the latest last frame come first, so that a step touches a prefix.
   void MakeBlocks(int num_rows) {
     std::vector<int> last(num_rows, -1);
@@ -132,10 +153,8 @@ class AdjointSweep {
   bool StepBlockBack(AdjointBlock* block) const {
     const BlockPattern& pattern = system_.pattern();
     const int count = static_cast<int>(block->rows.size());
-    const double h = input_.scene->step_length();
-    const bool symplectic = linear_.position_uses_new_velocity;
     block->lambda = block->wv;
-    if (symplectic) block->lambda += h * block->wx;
+    if (linear_.c != 0.0) block->lambda += linear_.c * block->wx;
     if (linear_.a_is_mass) {
       for (int node = 0; node < pattern.num_nodes(); ++node) {
         block->lambda.middleRows<3>(3 * node) /=
@@ -144,11 +163,7 @@ class AdjointSweep {
     } else if (!solver_.Solve(block->lambda.data(), count, /*transposed=*/true)) {
       return false;
     }
-    if (symplectic) {
-      block->wv.setZero();
-    } else {
-      block->wv = h * block->wx;
-    }
+    block->wv = linear_.p * block->wx;
     AddMultiplyMany(pattern, linear_.rv.data(), true, block->lambda.data(), count,
                     block->wv.data());
     AddMultiplyMany(pattern, linear_.rx.data(), true, block->lambda.data(), count,
@@ -164,7 +179,7 @@ class AdjointSweep {
   ObjectSystem& system_;
   std::unique_ptr<Integrator> integrator_;
   BlockSolver solver_;
-  StepLinearization linear_;
+  StageLinearization linear_;
   Eigen::VectorXd v0_;
   std::vector<AdjointBlock> blocks_;
   std::vector<std::pair<int, int>> place_of_row_;  // (block, column in it)

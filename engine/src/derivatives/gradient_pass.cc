@@ -27,7 +27,14 @@ bool AddObjectGradient(const Scene& scene, const SimulatorOptions& options,
   add_seed(last_frame);
   for (int s = last_frame * scene.steps_per_frame - 1; s >= 0; --s) {
     const StepStates states = StatesOfStep(*system, tape, s, h, &v0);
-    if (!integrator->AdjointStep(system, states, {gx.data(), gv.data(), gp.data()})) {
+    StepSolver* solver = system->solver();
+    if (s < static_cast<int>(tape.solvers.size())) {
+      solver = tape.solvers[s].get();
+    } else {
+      solver->Reset();
+    }
+    if (!integrator->AdjointStep(system, solver, states,
+                                 {gx.data(), gv.data(), gp.data()})) {
       return false;
     }
     if (s % scene.steps_per_frame == 0) add_seed(s / scene.steps_per_frame);

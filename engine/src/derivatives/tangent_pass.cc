@@ -1,5 +1,5 @@
-// Forward sensitivity: A dv1 = Rx dx0 + Rv dv0 + B dp, dx1 = dx0 + h dv1 (h dv0 for
-// explicit Euler), for a block of directions dp at once (integrator.h).
+// Forward sensitivity, stage by stage (integrator.h), for a block of directions dp at
+// once: A dv = Rx dx_in + Rv dv_in + B dp, dx = dx_in + p dv_in + c dv.
 #include <algorithm>
 #include <atomic>
 
@@ -18,7 +18,8 @@ constexpr int kBlockColumns = 96;
 struct TangentBlock {
   int first = 0;
   int count = 0;
-  RowMajorMatrix dx, dv, dv_next;  // 3 nodes x count
+  RowMajorMatrix dx, dv, dv_next;     // 3 nodes x count
+  RowMajorMatrix dx_start, dv_start;  // before the step, for methods of two stages
 };
 
 class TangentSweep {
@@ -51,21 +52,42 @@ class TangentSweep {
   bool Step(int s) {
     const StepStates states =
         StatesOfStep(system_, *input_.tape, s, input_.scene->step_length(), &v0_);
-    integrator_->TangentStep(&system_, states, &linear_);
+    const int num_stages = integrator_->num_stages();
+    for (int stage = 0; stage < num_stages; ++stage) {
+      integrator_->TangentStage(stage, &system_, system_.solver(), states, &linear_);
+      if (!SolveStage(/*keep_start=*/stage == 0 && num_stages > 1)) return false;
+    }
+    return true;
+  }
+
+ private:
+  bool SolveStage(bool keep_start) {
     if (!linear_.a_is_mass &&
-        !solver_.Prepare(&system_.solver(), system_.IsSymmetric(), num_directions_)) {
+        !solver_.Prepare(system_.solver(), system_.IsSymmetric(), num_directions_)) {
       return false;
     }
     std::atomic<bool> ok{true};
     const bool serial = !linear_.a_is_mass && !solver_.thread_safe();
     ParallelFor(serial ? 1 : input_.options->num_threads,
                 static_cast<int>(blocks_.size()), [&](int b) {
-                  if (!StepBlock(&blocks_[b])) ok = false;
+                  TangentBlock& block = blocks_[b];
+                  if (keep_start) {
+                    block.dx_start = block.dx;
+                    block.dv_start = block.dv;
+                  }
+                  CombineInput(&block);
+                  if (!StepBlock(&block)) ok = false;
                 });
     return ok;
   }
 
- private:
+  // (dx, dv) := the stage's input.
+  void CombineInput(TangentBlock* block) const {
+    if (linear_.start_weight == 0.0) return;
+    block->dx = linear_.weight * block->dx + linear_.start_weight * block->dx_start;
+    block->dv = linear_.weight * block->dv + linear_.start_weight * block->dv_start;
+  }
+
   void SeedInitialVelocity(TangentBlock* block) const {
     const ParameterColumns& local = system_.local_columns();
     if (!local.Has(ParameterKind::kInitialVelocity)) return;
@@ -109,8 +131,8 @@ class TangentSweep {
     } else if (!solver_.Solve(next.data(), block->count, /*transposed=*/false)) {
       return false;
     }
-    const double h = input_.scene->step_length();
-    block->dx += h * (linear_.position_uses_new_velocity ? next : block->dv);
+    if (linear_.p != 0.0) block->dx += linear_.p * block->dv;
+    if (linear_.c != 0.0) block->dx += linear_.c * next;
     block->dv.swap(next);
     return true;
   }
@@ -120,7 +142,7 @@ class TangentSweep {
   const Eigen::MatrixXd* seed_;
   std::unique_ptr<Integrator> integrator_;
   BlockSolver solver_;
-  StepLinearization linear_;
+  StageLinearization linear_;
   Eigen::VectorXd v0_;
   std::vector<TangentBlock> blocks_;
   int num_directions_ = 0;

@@ -7,47 +7,53 @@ ForceState ExplicitEuler::ExpansionPoint(const ObjectSystem& /*system*/,
   return {states.x0, states.v0, nullptr, nullptr};
 }
 
-StepOutcome ExplicitEuler::Step(ObjectSystem* system, const StepStates& states,
-                                double* x1, double* v1) {
+StepOutcome ExplicitEuler::Step(ObjectSystem* system, StepSolver* /*solver*/,
+                                const StepStates& states, const StepResult& result) {
   force_.resize(system->num_coordinates());
   system->Force(ExpansionPoint(*system, states), force_.data());
   for (int i : system->free_vertices()) {
     const double factor = states.h / system->parameters().mass[i];
     for (int c = 3 * i; c < 3 * i + 3; ++c) {
-      v1[c] = states.v0[c] + factor * force_[c];
-      x1[c] = states.x0[c] + states.h * (symplectic_ ? v1[c] : states.v0[c]);
+      result.v1[c] = states.v0[c] + factor * force_[c];
+      result.x1[c] =
+          states.x0[c] + states.h * (symplectic_ ? result.v1[c] : states.v0[c]);
     }
   }
   return {};
 }
 
-bool ExplicitEuler::AdjointStep(ObjectSystem* system, const StepStates& states,
-                                const StepAdjoint& adjoint) {
+bool ExplicitEuler::AdjointStep(ObjectSystem* system, StepSolver* /*solver*/,
+                                const StepStates& states, const StepAdjoint& adjoint) {
   const ForceState point = ExpansionPoint(*system, states);
-  SolveAdjointMass(*system, symplectic_ ? states.h : 0.0, adjoint);
-  // dL/dv0 starts from M lambda, plus h gx where v0 moved the positions.
+  SetMu(*system, symplectic_ ? states.h : 0.0, adjoint);
+  // With A = M, M lambda = mu; where v0 moved the positions it receives h gx as well.
   for (int i : system->free_vertices()) {
     for (int c = 3 * i; c < 3 * i + 3; ++c) {
-      adjoint.gv[c] = system->parameters().mass[i] * lambda_[c];
+      adjoint.gv[c] = lambda_[c];
       if (!symplectic_) adjoint.gv[c] += states.h * adjoint.gx[c];
+      lambda_[c] /= system->parameters().mass[i];
     }
   }
   system->AddAdjoint(point, lambda_.data(), states.h, VelocityPart::kWhole, adjoint.gx,
                      adjoint.gv);
-  AddParameterAdjoint(*system, states, point, adjoint.gp);
+  AddParameterAdjoint(*system, point, states.h,
+                      Difference(*system, states.v0, states.v1), adjoint.gp);
   return true;
 }
 
-void ExplicitEuler::TangentStep(ObjectSystem* system, const StepStates& states,
-                                StepLinearization* out) {
+void ExplicitEuler::TangentStage(int /*stage*/, ObjectSystem* system,
+                                 StepSolver* /*solver*/, const StepStates& states,
+                                 StageLinearization* out) {
   const ForceState point = ExpansionPoint(*system, states);
   out->a_is_mass = true;
-  out->position_uses_new_velocity = symplectic_;
+  out->p = symplectic_ ? 0.0 : states.h;
+  out->c = symplectic_ ? states.h : 0.0;
   ClearLinearization(*system, out);
   system->AddJacobian(point, states.h, 0.0, VelocityPart::kWhole, out->rx.data());
   system->AddMass(out->rv.data());
   system->AddJacobian(point, 0.0, states.h, VelocityPart::kWhole, out->rv.data());
-  ListParameterEntries(*system, states, point, out);
+  ListParameterEntries(*system, point, states.h,
+                       Difference(*system, states.v0, states.v1), out);
 }
 
 }  // namespace dpe

@@ -17,12 +17,14 @@ class ExplicitEuler final : public Integrator {
   ExplicitEuler(const SimulatorOptions& options, bool symplectic)
       : Integrator(options), symplectic_(symplectic) {}
 
-  StepOutcome Step(ObjectSystem* system, const StepStates& states, double* x1,
-                   double* v1) override;
-  bool AdjointStep(ObjectSystem* system, const StepStates& states,
+  bool UsesSolver() const override { return false; }
+
+  StepOutcome Step(ObjectSystem* system, StepSolver* solver, const StepStates& states,
+                   const StepResult& result) override;
+  bool AdjointStep(ObjectSystem* system, StepSolver* solver, const StepStates& states,
                    const StepAdjoint& adjoint) override;
-  void TangentStep(ObjectSystem* system, const StepStates& states,
-                   StepLinearization* out) override;
+  void TangentStage(int stage, ObjectSystem* system, StepSolver* solver,
+                    const StepStates& states, StageLinearization* out) override;
   ForceState ExpansionPoint(const ObjectSystem& system,
                             const StepStates& states) override;
 

@@ -1,78 +1,71 @@
 #include "integrators/integrator.h"
 
+#include <algorithm>
+
 #include "integrators/explicit_euler.h"
 #include "integrators/implicit_euler.h"
 #include "integrators/linearly_implicit_euler.h"
+#include "integrators/tr_bdf2.h"
 
 namespace dpe {
 
-const double* Integrator::VelocityChange(const ObjectSystem& system,
-                                         const StepStates& states) {
-  delta_.assign(system.num_coordinates(), 0.0);
+const double* Integrator::Difference(const ObjectSystem& system, const double* a,
+                                     const double* b) {
+  difference_.assign(system.num_coordinates(), 0.0);
   for (int i : system.free_vertices()) {
-    for (int c = 3 * i; c < 3 * i + 3; ++c) delta_[c] = states.v1[c] - states.v0[c];
+    for (int c = 3 * i; c < 3 * i + 3; ++c) difference_[c] = b[c] - a[c];
   }
-  return delta_.data();
+  return difference_.data();
 }
 
-void Integrator::AssembleStepMatrix(ObjectSystem* system, const ForceState& point,
-                                    double h) {
-  std::vector<double>& values = system->solver().values();
+void Integrator::AssembleStepMatrix(ObjectSystem* system, StepSolver* solver,
+                                    const double* x, const double* v, double c) {
+  std::vector<double>& values = solver->values();
   std::fill(values.begin(), values.end(), 0.0);
   system->AddMass(values.data());
-  const ForceState plain{point.x, point.v, nullptr, nullptr};
-  system->AddJacobian(plain, -h * h, -h, VelocityPart::kWhole, values.data());
+  system->AddJacobian({x, v, nullptr, nullptr}, -c * c, -c, VelocityPart::kWhole,
+                      values.data());
 }
 
-bool Integrator::SolveAdjoint(ObjectSystem* system, double h,
-                              const StepAdjoint& adjoint) {
-  lambda_.assign(system->num_coordinates(), 0.0);
-  for (int i : system->free_vertices()) {
-    for (int c = 3 * i; c < 3 * i + 3; ++c) {
-      lambda_[c] = adjoint.gv[c] + h * adjoint.gx[c];
+void Integrator::SetMu(const ObjectSystem& system, double c,
+                       const StepAdjoint& adjoint) {
+  lambda_.assign(system.num_coordinates(), 0.0);
+  for (int i : system.free_vertices()) {
+    for (int k = 3 * i; k < 3 * i + 3; ++k) {
+      lambda_[k] = adjoint.gv[k] + c * adjoint.gx[k];
     }
   }
-  free_.resize(system->pattern().num_rows());
-  system->GatherFree(lambda_.data(), free_.data());
-  if (!system->solver().Factorize(system->IsSymmetric())) return false;
-  if (!system->solver().Solve(free_.data(), free_.data(), /*transposed=*/true)) {
-    return false;
-  }
-  system->ScatterFree(free_.data(), lambda_.data());
+}
+
+bool Integrator::SolveAdjoint(const ObjectSystem& system, StepSolver* solver) {
+  free_.resize(system.pattern().num_rows());
+  system.GatherFree(lambda_.data(), free_.data());
+  if (!solver->Solve(free_.data(), free_.data(), /*transposed=*/true)) return false;
+  system.ScatterFree(free_.data(), lambda_.data());
   return true;
 }
 
-void Integrator::SolveAdjointMass(const ObjectSystem& system, double h,
-                                  const StepAdjoint& adjoint) {
-  lambda_.assign(system.num_coordinates(), 0.0);
-  for (int i : system.free_vertices()) {
-    for (int c = 3 * i; c < 3 * i + 3; ++c) {
-      lambda_[c] = (adjoint.gv[c] + h * adjoint.gx[c]) / system.parameters().mass[i];
-    }
-  }
-}
-
 void Integrator::AddParameterAdjoint(const ObjectSystem& system,
-                                     const StepStates& states, const ForceState& point,
-                                     double* gp) {
+                                     const ForceState& point, double c,
+                                     const double* dv, double* gp) {
   if (system.local_columns().used().empty()) return;
   ParameterSink sink(system.local_columns(), 1.0, lambda_.data(), gp);
-  system.VisitStepParameters(point, states.h, VelocityChange(system, states), &sink);
+  system.VisitStepParameters(point, c, dv, &sink);
 }
 
 void Integrator::ListParameterEntries(const ObjectSystem& system,
-                                      const StepStates& states, const ForceState& point,
-                                      StepLinearization* out) {
-  out->entries.clear();
+                                      const ForceState& point, double c,
+                                      const double* dv, StageLinearization* out) {
   ParameterSink sink(system.local_columns(), 1.0, system.node_of_vertex(),
                      &out->entries);
-  system.VisitStepParameters(point, states.h, VelocityChange(system, states), &sink);
+  system.VisitStepParameters(point, c, dv, &sink);
 }
 
 void Integrator::ClearLinearization(const ObjectSystem& system,
-                                    StepLinearization* out) {
+                                    StageLinearization* out) {
   out->rx.assign(system.pattern().num_nonzeros(), 0.0);
   out->rv.assign(system.pattern().num_nonzeros(), 0.0);
+  out->entries.clear();
 }
 
 std::unique_ptr<Integrator> MakeIntegrator(IntegrationMethod method,
@@ -86,6 +79,8 @@ std::unique_ptr<Integrator> MakeIntegrator(IntegrationMethod method,
       return std::make_unique<LinearlyImplicitEuler>(options);
     case IntegrationMethod::kImplicitEuler:
       return std::make_unique<ImplicitEuler>(options);
+    case IntegrationMethod::kTrBdf2:
+      return std::make_unique<TrBdf2>(options);
   }
   return nullptr;
 }

@@ -1,12 +1,15 @@
 // One integration step and its derivatives. Each method is one file, with its step, its
 // adjoint step and its tangent step side by side.
 //
-// All methods share the form r = M (v1 - v0) - h phi = 0 and differ in where the force
-// expansion phi is taken (force_term.h) and in how x1 follows. Differentiated:
-//   A dv1 = Rx dx0 + Rv dv0 + B dp,     dx1 = dx0 + h dv1   (h dv0: explicit Euler)
-// with A = dr/dv1 and B = -dr/dp. The adjoint of that, for given gx = dL/dx1, gv =
-// dL/dv1 and mu = gv + h gx (gv: explicit Euler), is
-//   A^T lambda = mu,  dL/dx0 = gx + Rx^T lambda,  dL/dv0 = Rv^T lambda (+ h gx),
+// A step consists of one or two stages; each solves M (v - v_in) - c phi = 0 for its
+// velocity v, with the force expansion phi (force_term.h) at a place that the method
+// chooses, and moves the positions. Differentiated, a stage is
+//   A dv = Rx dx_in + Rv dv_in + B dp,     dx = dx_in + p dv_in + c dv,
+// with A = dr/dv and B = -dr/dp. Its input is a combination of the stage before (the
+// state before the step, for the first) and of the state before the step:
+//   (dx_in, dv_in) = w (dx, dv)_before + w0 (dx, dv)_0.
+// The adjoint of a stage, for given gx = dL/dx, gv = dL/dv and mu = gv + c gx, is
+//   A^T lambda = mu,  gx_in = gx + Rx^T lambda,  gv_in = Rv^T lambda + p gx,
 //   dL/dp += B^T lambda.
 #ifndef DPE_ENGINE_INTEGRATORS_INTEGRATOR_H_
 #define DPE_ENGINE_INTEGRATORS_INTEGRATOR_H_
@@ -21,14 +24,25 @@
 
 namespace dpe {
 
-// The states around one step: 3N arrays; v0 and v1 hold the prescribed velocity over
-// the step at fixed vertices, x1 their prescribed position.
+// The states around one step: 3N arrays; v0, v1 and vs hold the prescribed velocity
+// over the step at fixed vertices, x1 and xs their prescribed position.
 struct StepStates {
   double h = 0.0;
   const double* x0 = nullptr;
   const double* v0 = nullptr;
   const double* x1 = nullptr;
   const double* v1 = nullptr;
+  const double* xs = nullptr;  // after the first of two stages; else null
+  const double* vs = nullptr;
+};
+
+// Where a step writes its result; fixed entries are set by the caller, those of the
+// stage by the method.
+struct StepResult {
+  double* x1 = nullptr;
+  double* v1 = nullptr;
+  double* xs = nullptr;
+  double* vs = nullptr;
 };
 
 struct StepOutcome {
@@ -37,10 +51,13 @@ struct StepOutcome {
   bool ok() const { return code == RolloutStatus::Code::kOk; }
 };
 
-// The derivative of one step, see the head of this file. A is in the system's solver.
-struct StepLinearization {
-  bool a_is_mass = false;  // A = M (explicit methods): the solver is not used
-  bool position_uses_new_velocity = true;
+// The derivative of one stage, see the head of this file. A is in the solver's values.
+struct StageLinearization {
+  bool a_is_mass = false;               // A = M (explicit methods): no solver needed
+  double p = 0.0;                       // s
+  double c = 0.0;                       // s
+  double weight = 1.0;                  // w
+  double start_weight = 0.0;            // w0
   std::vector<double> rx, rv;           // values in the system's pattern
   std::vector<ParameterEntry> entries;  // B, columns by local_columns()
 };
@@ -58,46 +75,61 @@ class Integrator {
   explicit Integrator(const SimulatorOptions& options) : options_(options) {}
   virtual ~Integrator() = default;
 
-  // Computes v1 and x1 of the free vertices from states.x0, v0 (x1 and v1 are written
-  // through the given pointers; their fixed entries are set already).
-  virtual StepOutcome Step(ObjectSystem* system, const StepStates& states, double* x1,
-                           double* v1) = 0;
+  virtual int num_stages() const { return 1; }
+  // True if the method solves linear systems.
+  virtual bool UsesSolver() const { return true; }
 
-  // False if the step's linear system cannot be solved.
-  virtual bool AdjointStep(ObjectSystem* system, const StepStates& states,
-                           const StepAdjoint& adjoint) = 0;
+  // Computes the free entries of the result from states.x0 and v0 (states.x1 ... point
+  // to the result as well).
+  virtual StepOutcome Step(ObjectSystem* system, StepSolver* solver,
+                           const StepStates& states, const StepResult& result) = 0;
 
-  virtual void TangentStep(ObjectSystem* system, const StepStates& states,
-                           StepLinearization* out) = 0;
+  // @param solver  as Step left it, then its factorisation is used; or not factorised
+  // @return false if the step's linear system cannot be solved
+  virtual bool AdjointStep(ObjectSystem* system, StepSolver* solver,
+                           const StepStates& states, const StepAdjoint& adjoint) = 0;
 
-  // Where phi is taken. Arrays it points to stay valid until the next call.
+  // Linearises stage `stage`; assembles A into solver's values.
+  virtual void TangentStage(int stage, ObjectSystem* system, StepSolver* solver,
+                            const StepStates& states, StageLinearization* out) = 0;
+
+  // The residual M (v1 - v0) - h phi that is linear in the parameters for given states,
+  // and where its phi is taken. Arrays it points to stay valid until the next call.
   virtual ForceState ExpansionPoint(const ObjectSystem& system,
                                     const StepStates& states) = 0;
 
  protected:
-  // v1 - v0, into `delta_`; zero at fixed vertices.
-  const double* VelocityChange(const ObjectSystem& system, const StepStates& states);
-  // The solver's matrix := M - h D - h^2 K at `point`.
-  void AssembleStepMatrix(ObjectSystem* system, const ForceState& point, double h);
-  // lambda_ := A^{-T} (gv + h gx), scattered to 3N; the matrix must be assembled.
-  bool SolveAdjoint(ObjectSystem* system, double h, const StepAdjoint& adjoint);
-  // lambda_ := M^{-1} mu, mu = gv + h gx; `h` may be 0.
-  void SolveAdjointMass(const ObjectSystem& system, double h,
-                        const StepAdjoint& adjoint);
-  // gp += lambda^T B.
-  void AddParameterAdjoint(const ObjectSystem& system, const StepStates& states,
-                           const ForceState& point, double* gp);
-  // out->entries := B.
-  void ListParameterEntries(const ObjectSystem& system, const StepStates& states,
-                            const ForceState& point, StepLinearization* out);
-  // Zeroes rx and rv.
-  static void ClearLinearization(const ObjectSystem& system, StepLinearization* out);
+  // Makes the solver ready for the matrix in its values: with the factorisation of a
+  // nearby matrix if it has one, else with a new one.
+  static bool PrepareSolver(const ObjectSystem& system, StepSolver* solver) {
+    return solver->factorized() ? solver->KeepFactorization()
+                                : solver->Factorize(system.IsSymmetric());
+  }
+  // b - a, into a buffer that the next call overwrites; zero at fixed vertices.
+  const double* Difference(const ObjectSystem& system, const double* a,
+                           const double* b);
+  // The solver's matrix := M - c D - c^2 K at (x, v).
+  static void AssembleStepMatrix(ObjectSystem* system, StepSolver* solver,
+                                 const double* x, const double* v, double c);
+  // lambda_ := A^{-T} mu for the mu (3N) that lambda_ holds; the solver is ready.
+  bool SolveAdjoint(const ObjectSystem& system, StepSolver* solver);
+  // lambda_ := gv + c gx at free vertices, 0 elsewhere.
+  void SetMu(const ObjectSystem& system, double c, const StepAdjoint& adjoint);
+  // gp += lambda^T (c dphi/dp - (dM/dp) dv).
+  void AddParameterAdjoint(const ObjectSystem& system, const ForceState& point,
+                           double c, const double* dv, double* gp);
+  // Appends c dphi/dp - (dM/dp) dv to out->entries.
+  static void ListParameterEntries(const ObjectSystem& system, const ForceState& point,
+                                   double c, const double* dv, StageLinearization* out);
+  // Zeroes rx, rv and the entries.
+  static void ClearLinearization(const ObjectSystem& system, StageLinearization* out);
 
   SimulatorOptions options_;
   std::vector<double> lambda_;  // 3N
+  std::vector<double> free_;    // the unknowns of a linear system
 
  private:
-  std::vector<double> delta_, free_;
+  std::vector<double> difference_;
 };
 
 std::unique_ptr<Integrator> MakeIntegrator(IntegrationMethod method,

@@ -21,12 +21,12 @@ class LinearlyImplicitEuler final : public Integrator {
  public:
   using Integrator::Integrator;
 
-  StepOutcome Step(ObjectSystem* system, const StepStates& states, double* x1,
-                   double* v1) override;
-  bool AdjointStep(ObjectSystem* system, const StepStates& states,
+  StepOutcome Step(ObjectSystem* system, StepSolver* solver, const StepStates& states,
+                   const StepResult& result) override;
+  bool AdjointStep(ObjectSystem* system, StepSolver* solver, const StepStates& states,
                    const StepAdjoint& adjoint) override;
-  void TangentStep(ObjectSystem* system, const StepStates& states,
-                   StepLinearization* out) override;
+  void TangentStage(int stage, ObjectSystem* system, StepSolver* solver,
+                    const StepStates& states, StageLinearization* out) override;
   ForceState ExpansionPoint(const ObjectSystem& system,
                             const StepStates& states) override;
 

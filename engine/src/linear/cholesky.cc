@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <cstring>
 #include <new>
+#include <utility>
 
 #include "linear/serial_openmp.h"
 #include "linear/supernodal_solve.h"
 
 namespace dpe {
 
-Cholesky::Cholesky(const BlockPattern& pattern) : pattern_(pattern) {
+CholeskyAnalysis::CholeskyAnalysis(const BlockPattern& pattern) {
   cholmod_start(&common_);
   common_.print = 0;
   common_.supernodal = CHOLMOD_SUPERNODAL;
-  common_.nmethods = 1;  // the pattern comes in a fill-reducing order
+  common_.nmethods = 1;
   common_.method[0].ordering = CHOLMOD_NATURAL;
   common_.postorder = 0;
   common_.final_ll = 1;  // L L^T: a negative pivot is a failure, not a factor
@@ -28,22 +29,35 @@ Cholesky::Cholesky(const BlockPattern& pattern) : pattern_(pattern) {
   matrix_.dtype = CHOLMOD_DOUBLE;
   matrix_.sorted = 1;
   matrix_.packed = 1;
-  factor_ = cholmod_analyze(&matrix_, &common_);
-  if (factor_ == nullptr) throw std::bad_alloc();
+  symbolic_ = cholmod_analyze(&matrix_, &common_);
+  if (symbolic_ == nullptr) throw std::bad_alloc();
   matrix_.xtype = CHOLMOD_REAL;
 }
 
-Cholesky::~Cholesky() {
-  cholmod_free_factor(&factor_, &common_);
+CholeskyAnalysis::~CholeskyAnalysis() {
+  cholmod_free_factor(&symbolic_, &common_);
   cholmod_finish(&common_);
 }
 
+size_t CholeskyAnalysis::factor_bytes() const {
+  return symbolic_->xsize * sizeof(double);
+}
+
+Cholesky::Cholesky(std::shared_ptr<CholeskyAnalysis> analysis)
+    : analysis_(std::move(analysis)) {
+  factor_ = cholmod_copy_factor(analysis_->symbolic_, &analysis_->common_);
+  if (factor_ == nullptr) throw std::bad_alloc();
+}
+
+Cholesky::~Cholesky() { cholmod_free_factor(&factor_, &analysis_->common_); }
+
 bool Cholesky::Factorize(const double* values) {
-  matrix_.x = const_cast<double*>(values);
-  common_.status = CHOLMOD_OK;
+  cholmod_common* common = &analysis_->common_;
+  analysis_->matrix_.x = const_cast<double*>(values);
+  common->status = CHOLMOD_OK;
   const SerialOpenmp serial;
-  cholmod_factorize(&matrix_, factor_, &common_);
-  return common_.status == CHOLMOD_OK && factor_->minor == factor_->n;
+  cholmod_factorize(&analysis_->matrix_, factor_, common);
+  return common->status == CHOLMOD_OK && factor_->minor == factor_->n;
 }
 
 void Cholesky::Solve(const double* b, double* x) {
@@ -54,8 +68,8 @@ void Cholesky::Solve(const double* b, double* x) {
   factor.value_start = static_cast<const int*>(factor_->px);
   factor.row_indices = static_cast<const int*>(factor_->s);
   factor.values = static_cast<const double*>(factor_->x);
-  if (b != x) std::copy_n(b, pattern_.num_rows(), x);
-  SolveSupernodal(factor, &work_, x);
+  if (b != x) std::copy_n(b, factor_->n, x);
+  SolveSupernodal(factor, &analysis_->work_, x);
 }
 
 }  // namespace dpe

@@ -1,21 +1,42 @@
 // Sparse Cholesky of a symmetric positive definite matrix in a BlockPattern, by CHOLMOD
-// (Chen, Davis, Hager & Rajamanickam 2008). The pattern is analysed once. It
-// must be in a fill-reducing order already (ordering.h): CHOLMOD then factorises it in
-// place, without permuting.
+// (Chen, Davis, Hager & Rajamanickam 2008). The pattern must be in a fill-reducing
+// order already (ordering.h): CHOLMOD then factorises it in place, without permuting.
 #ifndef DPE_ENGINE_LINEAR_CHOLESKY_H_
 #define DPE_ENGINE_LINEAR_CHOLESKY_H_
 
 #include <cholmod.h>
 
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "linear/block_pattern.h"
 
 namespace dpe {
 
+// The symbolic analysis of a pattern and CHOLMOD's workspace, shared by all
+// factorisations of one object; they must not be used from several threads at once.
+class CholeskyAnalysis {
+ public:
+  explicit CholeskyAnalysis(const BlockPattern& pattern);
+  ~CholeskyAnalysis();
+  CholeskyAnalysis(const CholeskyAnalysis&) = delete;
+  CholeskyAnalysis& operator=(const CholeskyAnalysis&) = delete;
+
+  // Bytes that the values of one factor take.
+  size_t factor_bytes() const;
+
+ private:
+  friend class Cholesky;
+  cholmod_common common_;
+  cholmod_sparse matrix_;  // the pattern; values are set per factorisation
+  cholmod_factor* symbolic_ = nullptr;
+  std::vector<double> work_;
+};
+
 class Cholesky {
  public:
-  explicit Cholesky(const BlockPattern& pattern);
+  explicit Cholesky(std::shared_ptr<CholeskyAnalysis> analysis);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
@@ -28,11 +49,8 @@ class Cholesky {
   void Solve(const double* b, double* x);
 
  private:
-  const BlockPattern& pattern_;
-  cholmod_common common_;
-  cholmod_sparse matrix_;
+  std::shared_ptr<CholeskyAnalysis> analysis_;
   cholmod_factor* factor_ = nullptr;
-  std::vector<double> work_;
 };
 
 }  // namespace dpe

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dpe {
 namespace {
@@ -18,10 +19,17 @@ using Vector = Eigen::Map<Eigen::VectorXd>;
 
 }  // namespace
 
-StepSolver::StepSolver(const BlockPattern& pattern)
-    : pattern_(pattern), values_(pattern.num_nonzeros()), cholesky_(pattern) {
-  work_.resize(pattern.num_rows());
-  residual_.resize(pattern.num_rows());
+size_t StepSolverContext::solver_bytes() const {
+  return analysis->factor_bytes() + pattern.num_nonzeros() * sizeof(double);
+}
+
+StepSolver::StepSolver(std::shared_ptr<StepSolverContext> context)
+    : context_(std::move(context)),
+      pattern_(context_->pattern),
+      values_(pattern_.num_nonzeros()),
+      cholesky_(context_->analysis) {
+  context_->work.resize(pattern_.num_rows());
+  context_->residual.resize(pattern_.num_rows());
 }
 
 bool StepSolver::Factorize(bool symmetric) {
@@ -30,15 +38,21 @@ bool StepSolver::Factorize(bool symmetric) {
   const double* s = values_.data();
   if (!symmetric) {
     // Only the lower triangle of S is read.
-    symmetric_values_.resize(values_.size());
+    std::vector<double>& symmetric_values = context_->symmetric_values;
+    symmetric_values.resize(values_.size());
     const std::vector<int>& mirror = pattern_.transposed_index();
     for (size_t k = 0; k < values_.size(); ++k) {
-      symmetric_values_[k] = 0.5 * (values_[k] + values_[mirror[k]]);
+      symmetric_values[k] = 0.5 * (values_[k] + values_[mirror[k]]);
     }
-    s = symmetric_values_.data();
+    s = symmetric_values.data();
   }
-  has_cholesky_ = cholesky_.Factorize(s);
-  return has_cholesky_ || FactorizeLu();
+  factorized_ = cholesky_.Factorize(s) || FactorizeLu();
+  return factorized_;
+}
+
+bool StepSolver::KeepFactorization() {
+  symmetric_ = false;
+  return !has_lu_ || FactorizeLu();  // LU has no iteration that could make up
 }
 
 bool StepSolver::Solve(const double* b, double* z, bool transposed) {
@@ -48,7 +62,7 @@ bool StepSolver::Solve(const double* b, double* z, bool transposed) {
     return ConstVector(z, pattern_.num_rows()).allFinite();
   }
   if (SolveByGmres(b, z, transposed)) return true;
-  return FactorizeLu() && SolveByLu(right_.data(), z, transposed);
+  return FactorizeLu() && SolveByLu(context_->right.data(), z, transposed);
 }
 
 void StepSolver::Multiply(const double* x, double* y, bool transposed) const {
@@ -61,19 +75,19 @@ void StepSolver::Multiply(const double* x, double* y, bool transposed) const {
 
 bool StepSolver::SolveByGmres(const double* b, double* z, bool transposed) {
   const int n = pattern_.num_rows();
-  right_.assign(b, b + n);  // b and z may be the same array
-  const ConstVector right(right_.data(), n);
+  context_->right.assign(b, b + n);  // b and z may be the same array
+  const ConstVector right(context_->right.data(), n);
   const double scale = right.norm();
   Vector(z, n).setZero();
   if (scale == 0.0) return true;
   if (!std::isfinite(scale)) return false;
-  Vector residual(residual_.data(), n);
+  Vector residual(context_->residual.data(), n);
   residual = right;
   double norm = scale;
   for (int cycle = 0; cycle < kMaxCycles; ++cycle) {
-    GmresCycle(residual_.data(), norm, kTarget * scale, z, transposed);
-    Multiply(z, work_.data(), transposed);
-    residual = right - ConstVector(work_.data(), n);
+    GmresCycle(context_->residual.data(), norm, kTarget * scale, z, transposed);
+    Multiply(z, context_->work.data(), transposed);
+    residual = right - ConstVector(context_->work.data(), n);
     const double previous = norm;
     norm = residual.norm();
     if (norm <= kTarget * scale) return true;
@@ -87,11 +101,11 @@ bool StepSolver::SolveByGmres(const double* b, double* z, bool transposed) {
 double StepSolver::GmresCycle(const double* residual, double norm, double target,
                               double* z, bool transposed) {
   const int n = pattern_.num_rows();
-  basis_.resize(static_cast<size_t>(2 * kRestart + 1) * n);
+  context_->basis.resize(static_cast<size_t>(2 * kRestart + 1) * n);
   double hessenberg[kRestart + 1][kRestart];
   double cosine[kRestart], sine[kRestart], g[kRestart + 1];
   const auto column = [&](int j) {
-    return Vector(basis_.data() + static_cast<size_t>(j) * n, n);
+    return Vector(context_->basis.data() + static_cast<size_t>(j) * n, n);
   };
   const auto preconditioned = [&](int j) { return column(kRestart + 1 + j); };
   column(0) = ConstVector(residual, n) / norm;
@@ -157,8 +171,8 @@ bool StepSolver::SolveByLu(const double* b, double* z, bool transposed) {
   };
   const Eigen::VectorXd right = ConstVector(b, n);
   Eigen::VectorXd solution = solve(right);
-  Multiply(solution.data(), work_.data(), transposed);
-  solution += solve(right - ConstVector(work_.data(), n));  // one refinement
+  Multiply(solution.data(), context_->work.data(), transposed);
+  solution += solve(right - ConstVector(context_->work.data(), n));  // one refinement
   Vector(z, n) = solution;
   return solution.allFinite();
 }

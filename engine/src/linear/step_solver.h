@@ -21,10 +21,24 @@
 
 namespace dpe {
 
+// What the solvers of one object share; they take turns on one thread.
+struct StepSolverContext {
+  // The pattern must outlive the context.
+  explicit StepSolverContext(const BlockPattern& pattern)
+      : pattern(pattern), analysis(std::make_shared<CholeskyAnalysis>(pattern)) {}
+
+  // Bytes that a factorised StepSolver takes.
+  size_t solver_bytes() const;
+
+  const BlockPattern& pattern;
+  std::shared_ptr<CholeskyAnalysis> analysis;
+  std::vector<double> symmetric_values;
+  std::vector<double> basis, work, residual, right;  // of GMRES
+};
+
 class StepSolver {
  public:
-  // The pattern must outlive the solver.
-  explicit StepSolver(const BlockPattern& pattern);
+  explicit StepSolver(std::shared_ptr<StepSolverContext> context);
 
   // Where the caller assembles A before Factorize.
   std::vector<double>& values() { return values_; }
@@ -34,6 +48,15 @@ class StepSolver {
   // @return           false if the matrix is found to be singular; one that is not
   //                   finite may only show in Solve
   bool Factorize(bool symmetric);
+
+  bool factorized() const { return factorized_; }
+  // Forgets the factorisation.
+  void Reset() { factorized_ = false; }
+
+  // Goes on with the factorisation of an earlier, nearby matrix: `values` may have
+  // changed since, and GMRES makes up for the difference, so solves are as exact. False
+  // if the matrix cannot be factorised.
+  bool KeepFactorization();
 
   // z = A^{-1} b, or A^{-T} b if `transposed`; b and z may be the same array. False if
   // that cannot be solved to rounding level.
@@ -50,15 +73,14 @@ class StepSolver {
   bool FactorizeLu();
   bool SolveByLu(const double* b, double* z, bool transposed);
 
+  std::shared_ptr<StepSolverContext> context_;
   const BlockPattern& pattern_;
   std::vector<double> values_;
-  std::vector<double> symmetric_values_;
   Cholesky cholesky_;
+  bool factorized_ = false;
   bool symmetric_ = true;
-  bool has_cholesky_ = false;
   std::unique_ptr<SparseLU> lu_;  // last resort
   bool has_lu_ = false;
-  std::vector<double> basis_, work_, residual_, right_;
 };
 
 }  // namespace dpe

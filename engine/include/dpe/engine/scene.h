@@ -24,6 +24,7 @@ enum class IntegrationMethod {
   kSymplecticEuler = 1,
   kLinearlyImplicitEuler = 2,
   kImplicitEuler = 3,
+  kTrBdf2 = 4,
 };
 
 // Which drag force a triangle feels, see forces/drag.h.
@@ -110,7 +111,8 @@ char ParameterModeLetter(ParameterMode mode);
 // Reads one letter, either case. @throws SceneError naming the letter otherwise.
 ParameterMode ParameterModeFromLetter(char letter);
 
-// "explicit_euler", "symplectic_euler", "linearly_implicit_euler", "implicit_euler".
+// "explicit_euler", "symplectic_euler", "linearly_implicit_euler", "implicit_euler",
+// "tr_bdf2".
 std::string IntegrationMethodName(IntegrationMethod method);
 
 // Accepts a name or the number as text. @throws SceneError naming what is accepted.

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -25,13 +26,19 @@ struct SimulatorOptions {
   // Polled once per step if set; returning true ends the rollout with kInterrupted.
   std::function<bool()> interrupted;
 
-  // Implicit Euler: Newton stops when the residual has fallen to this fraction of its
+  // Run keeps the factorised matrices of steps, which makes derivative passes about
+  // twice as fast, as long as they take no more than this; the passes factorise the
+  // others again.
+  std::size_t factorization_bytes = std::size_t{512} << 20;
+
+  // Implicit methods: Newton stops when the residual has fallen to this fraction of its
   // largest term, or no longer falls; more iterations than the limit are a failure.
   double newton_tolerance = 1e-13;
   int max_newton_iterations = 50;
 };
 
 class RolloutTape;
+class SolverPool;
 
 // A rollout and what its derivative passes need: the state before every step.
 class Rollout {
@@ -105,6 +112,7 @@ class Simulator {
   SimulatorOptions options_;
   ParameterLayout layout_;
   std::vector<std::unique_ptr<ObjectSystem>> systems_;  // null: not simulated
+  std::vector<std::shared_ptr<SolverPool>> solver_pools_;
 };
 
 }  // namespace dpe

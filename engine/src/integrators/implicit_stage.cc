@@ -1,0 +1,105 @@
+#include "integrators/implicit_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace dpe {
+namespace {
+
+// Where the residual no longer falls, this fraction of its largest term is still taken
+// as converged to rounding: differences of large spring forces leave that much.
+constexpr double kStagnationTolerance = 1e-9;
+constexpr int kMaxHalvings = 30;
+
+StepOutcome NewtonFailure(const char* what, double residual, double scale) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof(buffer), "%s (residual %.3g kg m/s, its terms %.3g)",
+                what, residual, scale);
+  return {RolloutStatus::Code::kNewtonFailed, buffer};
+}
+
+}  // namespace
+
+double ImplicitStage::Residual() {
+  for (int i : system_->free_vertices()) {
+    for (int k = 3 * i; k < 3 * i + 3; ++k) x_[k] = x_in_[k] + c_ * v_[k];
+  }
+  system_->Force({x_, v_, nullptr, nullptr}, force_.data());
+  double sum = 0.0, inertia_sum = 0.0, force_sum = 0.0;
+  for (int i : system_->free_vertices()) {
+    const double m = system_->parameters().mass[i];
+    for (int k = 3 * i; k < 3 * i + 3; ++k) {
+      residual_[k] = m * v_[k] - momentum_[k] - c_ * force_[k];
+      sum += residual_[k] * residual_[k];
+      inertia_sum += m * m * v_[k] * v_[k] + momentum_[k] * momentum_[k];
+      force_sum += c_ * c_ * force_[k] * force_[k];
+    }
+  }
+  scale_ = std::sqrt(std::max(inertia_sum, force_sum));
+  return std::sqrt(sum);
+}
+
+bool ImplicitStage::NewtonStep() {
+  std::vector<double>& values = solver_->values();
+  std::fill(values.begin(), values.end(), 0.0);
+  system_->AddMass(values.data());
+  system_->AddJacobian({x_, v_, nullptr, nullptr}, -c_ * c_, -c_, VelocityPart::kWhole,
+                       values.data());
+  system_->GatherFree(residual_.data(), free_.data());
+  for (double& value : free_) value = -value;
+  return solver_->Factorize(system_->IsSymmetric()) &&
+         solver_->Solve(free_.data(), free_.data(), /*transposed=*/false);
+}
+
+bool ImplicitStage::LineSearch(double* norm) {
+  start_.assign(v_, v_ + system_->num_coordinates());
+  double t = 1.0;
+  for (int halving = 0; halving < kMaxHalvings; ++halving, t *= 0.5) {
+    const double* step = free_.data();
+    for (int i : system_->free_vertices()) {
+      for (int k = 3 * i; k < 3 * i + 3; ++k) v_[k] = start_[k] + t * *step++;
+    }
+    const double trial = Residual();
+    if (std::isfinite(trial) && trial <= (1.0 - 1e-4 * t) * *norm) {
+      *norm = trial;
+      return true;
+    }
+  }
+  std::copy(start_.begin(), start_.end(), v_);
+  *norm = Residual();
+  return false;
+}
+
+StepOutcome ImplicitStage::Solve(ObjectSystem* system, StepSolver* solver, double c,
+                                 const double* x_in, const double* momentum, double* x,
+                                 double* v) {
+  system_ = system;
+  solver_ = solver;
+  c_ = c;
+  x_in_ = x_in;
+  momentum_ = momentum;
+  x_ = x;
+  v_ = v;
+  residual_.assign(system->num_coordinates(), 0.0);
+  force_.resize(system->num_coordinates());
+  free_.resize(system->pattern().num_rows());
+  double norm = Residual();
+  for (int iteration = 0; iteration < options_.max_newton_iterations; ++iteration) {
+    if (!std::isfinite(norm)) {
+      return {RolloutStatus::Code::kNotFinite, "the forces are not finite"};
+    }
+    if (norm <= options_.newton_tolerance * scale_ || norm == 0.0) return {};
+    if (!NewtonStep()) {
+      return {RolloutStatus::Code::kLinearSolverFailed,
+              "Newton's matrix is singular or not finite"};
+    }
+    if (!LineSearch(&norm)) {
+      if (norm <= kStagnationTolerance * scale_) return {};
+      return NewtonFailure("Newton's line search found no decrease", norm, scale_);
+    }
+  }
+  return NewtonFailure("Newton's method did not converge", norm, scale_);
+}
+
+}  // namespace dpe
