@@ -134,6 +134,41 @@ TEST_P(SensitivityTest, AdjointTangentAndDifferencesAgree) {
   EXPECT_TRUE(sensitivity.ok());
 }
 
+class KeptFactorizationTest : public testing::TestWithParam<IntegrationMethod> {};
+
+TEST_P(KeptFactorizationTest, GradientDoesNotDependOnWhatWasKept) {
+  const Scene scene = MakeScene(GetParam(), "corners", ParameterMode::kLocal, 8);
+  const int num_frames = 12;
+  std::vector<Eigen::VectorXd> gradients;
+  // Nothing kept, a few steps (one takes about 0.1 MB), all steps.
+  for (const std::size_t bytes : {0u, 400'000u, 500'000'000u}) {
+    SimulatorOptions options;
+    options.factorization_bytes = bytes;
+    Simulator simulator(scene, options);
+    const Eigen::VectorXd p = simulator.layout().Extract(scene);
+    // The second rollout reuses the solvers of the first.
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      const Rollout rollout = simulator.Run(p, num_frames);
+      ASSERT_TRUE(rollout.status().ok()) << rollout.status().Message();
+      Sensitivity sensitivity(&simulator, &rollout);
+      gradients.push_back(sensitivity.Gradient(rollout.trajectory().positions,
+                                               rollout.trajectory().velocities));
+      ASSERT_TRUE(sensitivity.ok());
+    }
+  }
+  for (const Eigen::VectorXd& gradient : gradients) {
+    EXPECT_LT((gradient - gradients[0]).norm(), 1e-12 * gradients[0].norm());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, KeptFactorizationTest,
+                         testing::Values(IntegrationMethod::kLinearlyImplicitEuler,
+                                         IntegrationMethod::kImplicitEuler,
+                                         IntegrationMethod::kTrBdf2),
+                         [](const auto& info) {
+                           return IntegrationMethodName(info.param);
+                         });
+
 // The Jacobian of chosen rows, both ways, against the tangent of single directions.
 class JacobianTest : public testing::TestWithParam<IntegrationMethod> {};
 
