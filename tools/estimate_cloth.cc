@@ -52,6 +52,9 @@ DEFINE_uint64(seed, 0, "Seed of --noise_sigma and --init_perturbation.");
 DEFINE_string(output_dir, "",
               "Folder for the results; default results/<scene>_<settings>.");
 DEFINE_int32(threads, 1, "Number of threads.");
+DEFINE_bool(print_times, false,
+            "Print where the time of the fit went (also if the scene's printTimes is "
+            "true).");
 
 namespace dpe::tools {
 namespace {
@@ -164,10 +167,16 @@ int Main() {
     table.Tick(elapsed.count());
     return WasInterrupted();
   };
+  Timings timings;
+  const bool print_times = FLAGS_print_times || input.scene.print_times;
+  if (print_times) job.options.timings = &timings;
   const EstimatorSummary summary = Estimate(input.scene, input.target, job.options);
   const Validation validation = Validate(summary, input, FLAGS_threads);
   PrintSummary(input, summary, validation,
                WriteResults(job, input, summary, validation, output_dir));
+  if (print_times) {
+    std::cout << timings.Table(summary.wall_time_s, "start, optimiser");
+  }
   return ExitCode(summary.termination);
 }
 

@@ -1,6 +1,9 @@
 // Simulates a scene and writes where its vertices go.
 #include <gflags/gflags.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -11,6 +14,7 @@
 #include "support/blas_threads.h"
 #include "support/flag_ranges.h"
 #include "support/flag_values.h"
+#include "support/interrupt.h"
 #include "support/run_main.h"
 
 DEFINE_string(scene, "", "Scene file to simulate (required).");
@@ -19,17 +23,43 @@ DEFINE_string(output, "",
               "estimate_cloth --target reads it.");
 DEFINE_int32(frames, 0,
              "Number of frames, the initial state included; 0: what the scene says.");
-DEFINE_string(integrator, "",
-              "Integration method instead of the scene's: explicit_euler, "
-              "symplectic_euler, linearly_implicit_euler, implicit_euler, or 0 to 3.");
+DEFINE_string(
+    integrator, "",
+    "Integration method instead of the scene's: explicit_euler, "
+    "symplectic_euler, linearly_implicit_euler, implicit_euler, tr_bdf2, or 0 to "
+    "4.");
 DEFINE_double(delta, 0.0,
               "Length of a frame in s instead of the scene's; 0: the scene's.");
 DEFINE_int32(steps_per_frame, 0,
              "Integration steps per frame instead of the scene's; 0: the scene's.");
 DEFINE_int32(threads, 1, "Number of threads.");
+DEFINE_bool(print_times, false,
+            "Print where the time went (also if the scene's printTimes is true).");
 
 namespace dpe::tools {
 namespace {
+
+// Shows on a terminal, and only there, how far a rollout has come; counts from any
+// thread.
+class StepProgress {
+ public:
+  explicit StepProgress(long num_steps)
+      : num_steps_(num_steps), is_terminal_(isatty(STDERR_FILENO) != 0) {}
+
+  void Step() {
+    const long done = num_done_++;
+    if (!is_terminal_ || done % 50 != 0) return;
+    std::cerr << "\rsimulating: " << 100 * done / num_steps_ << " % " << std::flush;
+  }
+  void Clear() const {
+    if (is_terminal_) std::cerr << "\r                    \r" << std::flush;
+  }
+
+ private:
+  long num_steps_;
+  bool is_terminal_;
+  std::atomic<long> num_done_{0};
+};
 
 Scene SceneFromFlags() {
   RequireFlag("scene", FLAGS_scene, "the scene file to simulate");
@@ -56,17 +86,32 @@ int Main() {
   SetBlasThreads(FLAGS_threads);
   SimulatorOptions options;
   options.num_threads = FLAGS_threads;
-  Simulator simulator(scene, options);
   const int frames = FLAGS_frames > 0 ? FLAGS_frames : scene.num_frames;
+  CatchInterrupts();
+  StepProgress progress(static_cast<long>(frames - 1) * scene.steps_per_frame *
+                        scene.objects.size());
+  options.interrupted = [&progress] {
+    progress.Step();
+    return WasInterrupted();
+  };
+  Timings timings;
+  const bool print_times = FLAGS_print_times || scene.print_times;
+  if (print_times) options.timings = &timings;
+  const auto start = std::chrono::steady_clock::now();
+  Simulator simulator(scene, options);
   const Trajectory trajectory = simulator.Simulate(frames);
+  const std::chrono::duration<double> elapsed =
+      std::chrono::steady_clock::now() - start;
+  progress.Clear();
   // Frames before a failure are worth having: they show how it came about.
   WriteFileAtomically(FLAGS_output, TrajectoryToCsv(trajectory, scene));
   if (!trajectory.status.ok()) {
     std::cerr << "simulate_cloth: error: " << trajectory.status.Message() << "\n"
               << "The frames before that were written to " << FLAGS_output << "\n";
-    return 3;
+    return trajectory.status.code == RolloutStatus::Code::kInterrupted ? 2 : 3;
   }
   std::cout << "Wrote " << frames << " frames to " << FLAGS_output << "\n";
+  if (print_times) std::cout << timings.Table(elapsed.count(), "set-up");
   return 0;
 }
 
@@ -78,8 +123,9 @@ int main(int argc, char** argv) {
       "simulate_cloth",
       "Simulates a scene and writes the positions of its vertices, frame by frame. "
       "Exit "
-      "codes: 0 done, 1 bad flags or input, 3 the simulation failed (the frames before "
-      "the failure are written).",
+      "codes: 0 done, 1 bad flags or input, 2 stopped by Ctrl-C, 3 the simulation "
+      "failed "
+      "(the frames before that are written).",
       "--scene FILE --output FILE [--frames N] [--integrator METHOD] [--delta S]",
       __FILE__};
   return dpe::tools::RunMain(argc, argv, program, dpe::tools::Main);

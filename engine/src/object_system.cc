@@ -12,8 +12,9 @@
 namespace dpe {
 
 ObjectSystem::ObjectSystem(const Scene& scene, int object,
-                           const ParameterLayout& layout)
+                           const ParameterLayout& layout, Timings* timings)
     : object_(object),
+      timings_(timings),
       steps_per_frame_(scene.steps_per_frame),
       paths_(scene.objects[object].prescribed_paths),
       columns_(layout, object),
@@ -35,6 +36,7 @@ ObjectSystem::ObjectSystem(const Scene& scene, int object,
   for (int i = 0; i < pattern_.num_nodes(); ++i)
     diagonal_.push_back(pattern_.Find(i, i));
   solver_context_ = std::make_shared<StepSolverContext>(pattern_);
+  solver_context_->timings = timings;
   solver_ = NewSolver();
 }
 
@@ -112,6 +114,7 @@ void ObjectSystem::SetPrescribedVelocities(double h, const double* x0, const dou
 }
 
 void ObjectSystem::Force(const ForceState& state, double* force) const {
+  const ScopedTimer timer(timings_, TimedPart::kForces);
   std::fill(force, force + num_coordinates(), 0.0);
   for (const auto& term : terms_) term->AddForce(state, force);
   for (int i : fixed_vertices_) std::fill(force + 3 * i, force + 3 * i + 3, 0.0);
@@ -119,6 +122,7 @@ void ObjectSystem::Force(const ForceState& state, double* force) const {
 
 void ObjectSystem::AddJacobian(const ForceState& state, double cx, double cv,
                                VelocityPart part, double* values) const {
+  const ScopedTimer timer(timings_, TimedPart::kAssembly);
   for (const auto& term : terms_) term->AddJacobian(state, cx, cv, part, values);
 }
 

@@ -13,6 +13,7 @@
 
 #include "dpe/engine/parameters.h"
 #include "dpe/engine/scene.h"
+#include "dpe/engine/timings.h"
 #include "forces/force_term.h"
 #include "forces/parameter_sink.h"
 #include "linear/block_pattern.h"
@@ -22,7 +23,9 @@ namespace dpe {
 
 class ObjectSystem {
  public:
-  ObjectSystem(const Scene& scene, int object, const ParameterLayout& layout);
+  // @param timings  if not null, receives where the time went
+  ObjectSystem(const Scene& scene, int object, const ParameterLayout& layout,
+               Timings* timings = nullptr);
   ObjectSystem(const ObjectSystem&) = delete;
   ObjectSystem& operator=(const ObjectSystem&) = delete;
 
@@ -81,6 +84,7 @@ class ObjectSystem {
   void BuildPattern();
 
   int object_;
+  Timings* timings_;
   int steps_per_frame_;
   std::vector<int> free_vertices_, fixed_vertices_, node_of_vertex_;
   ObjectParameters parameters_;

@@ -18,6 +18,7 @@ Sensitivity::Sensitivity(Simulator* simulator, const Rollout* rollout)
 
 Eigen::VectorXd Sensitivity::Gradient(const std::vector<Eigen::MatrixXd>& dl_dx,
                                       const std::vector<Eigen::MatrixXd>& dl_dv) {
+  const ScopedTimer timer(simulator_->options_.timings, TimedPart::kDerivatives);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(simulator_->layout().size());
   const Eigen::MatrixXd none;
   for (size_t o = 0; o < simulator_->systems_.size(); ++o) {
@@ -35,6 +36,7 @@ Eigen::VectorXd Sensitivity::Gradient(const std::vector<Eigen::MatrixXd>& dl_dx,
 void Sensitivity::JacobianVectorProduct(const Eigen::VectorXd& dp,
                                         std::vector<Eigen::MatrixXd>* dx,
                                         std::vector<Eigen::MatrixXd>* dv) {
+  const ScopedTimer timer(simulator_->options_.timings, TimedPart::kDerivatives);
   const size_t num_objects = simulator_->systems_.size();
   dx->assign(num_objects, {});
   dv->assign(num_objects, {});
@@ -52,6 +54,7 @@ void Sensitivity::JacobianVectorProduct(const Eigen::VectorXd& dp,
 
 RowMajorMatrix Sensitivity::Jacobian(const std::vector<StateDerivative>& derivatives,
                                      int num_rows, JacobianMethod method) {
+  const ScopedTimer timer(simulator_->options_.timings, TimedPart::kDerivatives);
   if (method == JacobianMethod::kAuto) method = CheaperMethod(derivatives);
   RowMajorMatrix jacobian = RowMajorMatrix::Zero(num_rows, simulator_->layout().size());
   for (size_t o = 0; o < simulator_->systems_.size(); ++o) {

@@ -22,8 +22,9 @@ Simulator::Simulator(const Scene& scene, const SimulatorOptions& options)
   for (int o = 0; o < static_cast<int>(scene.objects.size()); ++o) {
     const bool wanted =
         !options.only_estimated_objects || ParameterLayout::ObjectIsEstimated(scene, o);
-    systems_.push_back(wanted ? std::make_unique<ObjectSystem>(scene_, o, layout_)
-                              : nullptr);
+    systems_.push_back(
+        wanted ? std::make_unique<ObjectSystem>(scene_, o, layout_, options.timings)
+               : nullptr);
     solver_pools_.push_back(std::make_shared<SolverPool>());
   }
 }

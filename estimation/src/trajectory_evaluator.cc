@@ -12,6 +12,7 @@ SimulatorOptions MakeSimulatorOptions(const TrajectoryEvaluatorOptions& options)
   simulator_options.only_estimated_objects = true;
   simulator_options.num_threads = options.num_threads;
   simulator_options.interrupted = options.interrupted;
+  simulator_options.timings = options.timings;
   return simulator_options;
 }
 

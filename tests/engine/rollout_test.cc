@@ -1,9 +1,11 @@
 // Physical identities of rollouts, and the order of accuracy of each integrator.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "dpe/engine/cloth_builder.h"
+#include "dpe/engine/sensitivity.h"
 #include "dpe/engine/simulator.h"
 #include "support/test_scenes.h"
 
@@ -195,6 +197,33 @@ TEST(RolloutStatusTest, ThreadsDoNotChangeTheResult) {
   const Trajectory serial = Simulator(scene).Simulate(20);
   EXPECT_EQ(parallel.positions[0], serial.positions[0]);
   EXPECT_EQ(parallel.positions[1], serial.positions[1]);
+}
+
+TEST(RolloutStatusTest, TimesAddUpAndCountCalls) {
+  const Scene scene = MakeDerivativeScene("side", 8);
+  Timings timings;
+  SimulatorOptions options;
+  options.timings = &timings;
+  const auto start = std::chrono::steady_clock::now();
+  Simulator simulator(scene, options);
+  const Rollout rollout = simulator.Run(simulator.layout().Extract(scene), 11);
+  EXPECT_EQ(timings.Calls(TimedPart::kFactorization), 10);
+  EXPECT_EQ(timings.Calls(TimedPart::kSolve), 10);
+  EXPECT_EQ(timings.Calls(TimedPart::kDerivatives), 0);
+  Sensitivity(&simulator, &rollout).Gradient(rollout.trajectory().positions);
+  const std::chrono::duration<double> elapsed =
+      std::chrono::steady_clock::now() - start;
+  EXPECT_EQ(timings.Calls(TimedPart::kDerivatives), 1);
+  // What the pass solves counts as the pass alone.
+  EXPECT_EQ(timings.Calls(TimedPart::kSolve), 10);
+  double sum = 0.0;
+  for (const TimedPart part :
+       {TimedPart::kForces, TimedPart::kAssembly, TimedPart::kFactorization,
+        TimedPart::kSolve, TimedPart::kDerivatives}) {
+    EXPECT_GT(timings.Seconds(part), 0.0);
+    sum += timings.Seconds(part);
+  }
+  EXPECT_LT(sum, elapsed.count());
 }
 
 TEST(RolloutStatusTest, ObjectsWithoutEstimatedParametersAreLeftOut) {

@@ -15,6 +15,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class SimulateClothTest : public ::testing::Test {
  protected:
@@ -55,6 +56,29 @@ TEST_F(SimulateClothTest, FlagsTakeTheSceneValuesPlace) {
             Simulator(scene_).Simulate(4).positions[0]);
   ASSERT_EQ(Run({}).exit_code, 0);
   EXPECT_EQ(ReadTrajectoryCsv(output_, scene_, 0).num_frames(), scene_.num_frames);
+}
+
+TEST_F(SimulateClothTest, CtrlCKeepsTheFramesSoFar) {
+  RunProgramOptions options;
+  options.interrupt_after = 1.0;
+  const ProgramResult result = RunProgram(
+      "simulate_cloth", {"--scene=" + path_, "--output=" + output_, "--frames=200000"},
+      options);
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_LT(result.seconds, 60.0);
+  EXPECT_THAT(result.err, HasSubstr("interrupted"));
+  EXPECT_GT(ReadTrajectoryCsv(output_, scene_, 0).num_frames(), 10);
+}
+
+TEST_F(SimulateClothTest, TimesAreShownWhenAskedFor) {
+  EXPECT_THAT(Run({"--frames=20", "--print_times"}).out,
+              AllOf(HasSubstr("factorisation"), HasSubstr("total")));
+  EXPECT_THAT(Run({"--frames=20"}).out, Not(HasSubstr("factorisation")));
+  scene_.print_times = true;  // the scene's own wish
+  SaveScene(scene_, path_);
+  EXPECT_THAT(Run({"--frames=20"}).out, HasSubstr("factorisation"));
+  EXPECT_THAT(Run({"--frames=20", "--integrator=0", "--delta=0.0001"}).out,
+              Not(HasSubstr("factorisation")));
 }
 
 TEST_F(SimulateClothTest, AFailureKeepsTheFramesBeforeIt) {

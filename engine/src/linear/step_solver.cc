@@ -33,6 +33,7 @@ StepSolver::StepSolver(std::shared_ptr<StepSolverContext> context)
 }
 
 bool StepSolver::Factorize(bool symmetric) {
+  const ScopedTimer timer(context_->timings, TimedPart::kFactorization);
   symmetric_ = symmetric;
   has_lu_ = false;
   const double* s = values_.data();
@@ -56,6 +57,7 @@ bool StepSolver::KeepFactorization() {
 }
 
 bool StepSolver::Solve(const double* b, double* z, bool transposed) {
+  const ScopedTimer timer(context_->timings, TimedPart::kSolve);
   if (has_lu_) return SolveByLu(b, z, transposed);
   if (symmetric_) {
     cholesky_.Solve(b, z);

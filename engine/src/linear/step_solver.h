@@ -16,6 +16,7 @@
 #include <memory>
 #include <vector>
 
+#include "dpe/engine/timings.h"
 #include "linear/block_pattern.h"
 #include "linear/cholesky.h"
 
@@ -32,6 +33,7 @@ struct StepSolverContext {
 
   const BlockPattern& pattern;
   std::shared_ptr<CholeskyAnalysis> analysis;
+  Timings* timings = nullptr;  // if set, receives the time of factorising and solving
   std::vector<double> symmetric_values;
   std::vector<double> basis, work, residual, right;  // of GMRES
 };

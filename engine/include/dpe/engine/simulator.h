@@ -11,6 +11,7 @@
 
 #include "dpe/engine/parameters.h"
 #include "dpe/engine/scene.h"
+#include "dpe/engine/timings.h"
 #include "dpe/engine/trajectory.h"
 
 namespace dpe {
@@ -30,6 +31,9 @@ struct SimulatorOptions {
   // twice as fast, as long as they take no more than this; the passes factorise the
   // others again.
   std::size_t factorization_bytes = std::size_t{512} << 20;
+
+  // If set, receives where the time went; must outlive the simulator.
+  Timings* timings = nullptr;
 
   // Implicit methods: Newton stops when the residual has fallen to this fraction of its
   // largest term, or no longer falls; more iterations than the limit are a failure.

@@ -68,6 +68,9 @@ struct EstimatorOptions {
   double gradient_tolerance = 1e-18;
   double parameter_tolerance = 1e-12;
 
+  // If set, receives where the time of rollouts and derivative passes went.
+  Timings* timings = nullptr;
+
   std::function<void(const IterationReport&)> progress;
   // Polled between and within rollouts; true stops the fit with the best so far.
   std::function<bool()> interrupted;

@@ -25,6 +25,7 @@ namespace dpe {
 struct TrajectoryEvaluatorOptions {
   JacobianMethod jacobian = JacobianMethod::kAuto;
   int num_threads = 1;
+  Timings* timings = nullptr;  // as in SimulatorOptions
   // Polled once per step; true makes the evaluation in progress fail.
   std::function<bool()> interrupted;
 };
