@@ -37,6 +37,10 @@ ObjectSystem::ObjectSystem(const Scene& scene, int object,
     diagonal_.push_back(pattern_.Find(i, i));
   solver_context_ = std::make_shared<StepSolverContext>(pattern_);
   solver_context_->timings = timings;
+  solver_context_->tolerance = scene.tolerance;
+  solver_context_->iterative =
+      scene.solver == "cg" ||
+      (scene.solver == "auto" && PrefersIterativeSolver(pattern_.num_rows()));
   solver_ = NewSolver();
 }
 

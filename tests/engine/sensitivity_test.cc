@@ -169,6 +169,28 @@ INSTANTIATE_TEST_SUITE_P(All, KeptFactorizationTest,
                            return IntegrationMethodName(info.param);
                          });
 
+// With the Krylov solver derivatives are exact to its tolerance.
+TEST_P(KeptFactorizationTest, IterativeSolverFollowsItsTolerance) {
+  Scene scene = MakeScene(GetParam(), "corners", ParameterMode::kLocal, 8);
+  const auto gradient = [&](const std::string& solver, double tolerance) {
+    scene.solver = solver;
+    scene.tolerance = tolerance;
+    Simulator simulator(scene);
+    const Rollout rollout = simulator.Run(simulator.layout().Extract(scene), 12);
+    EXPECT_TRUE(rollout.status().ok()) << rollout.status().Message();
+    return Sensitivity(&simulator, &rollout)
+        .Gradient(rollout.trajectory().positions, rollout.trajectory().velocities);
+  };
+  const Eigen::VectorXd exact = gradient("cholesky", 1e-5);
+  const auto error = [&](double tolerance) {
+    return (gradient("cg", tolerance) - exact).norm() / exact.norm();
+  };
+  EXPECT_LT(error(1e-5), 1e-3);
+  EXPECT_GT(error(1e-5), 1e-12);
+  EXPECT_LT(error(1e-12), 1e-9);
+  EXPECT_EQ(gradient("auto", 1e-5), exact);  // a small cloth
+}
+
 // The Jacobian of chosen rows, both ways, against the tangent of single directions.
 class JacobianTest : public testing::TestWithParam<IntegrationMethod> {};
 

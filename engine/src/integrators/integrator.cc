@@ -40,7 +40,12 @@ void Integrator::SetMu(const ObjectSystem& system, double c,
 bool Integrator::SolveAdjoint(const ObjectSystem& system, StepSolver* solver) {
   free_.resize(system.pattern().num_rows());
   system.GatherFree(lambda_.data(), free_.data());
-  if (!solver->Solve(free_.data(), free_.data(), /*transposed=*/true)) return false;
+  const double* guess =
+      last_adjoint_.size() == free_.size() ? last_adjoint_.data() : nullptr;
+  if (!solver->Solve(free_.data(), free_.data(), /*transposed=*/true, guess)) {
+    return false;
+  }
+  last_adjoint_ = free_;
   system.ScatterFree(free_.data(), lambda_.data());
   return true;
 }

@@ -129,7 +129,7 @@ class Integrator {
   std::vector<double> free_;    // the unknowns of a linear system
 
  private:
-  std::vector<double> difference_;
+  std::vector<double> difference_, last_adjoint_;
 };
 
 std::unique_ptr<Integrator> MakeIntegrator(IntegrationMethod method,

@@ -28,11 +28,15 @@ StepOutcome LinearlyImplicitEuler::Step(ObjectSystem* system, StepSolver* solver
   free_.resize(system->pattern().num_rows());
   system->GatherFree(force_.data(), free_.data());
   for (double& value : free_) value *= h;
+  // Steps resemble each other: the last change of velocity is a good first guess.
+  const double* guess =
+      last_change_.size() == free_.size() ? last_change_.data() : nullptr;
   if (!solver->Factorize(system->IsSymmetric()) ||
-      !solver->Solve(free_.data(), free_.data(), /*transposed=*/false)) {
+      !solver->Solve(free_.data(), free_.data(), /*transposed=*/false, guess)) {
     return {RolloutStatus::Code::kLinearSolverFailed,
             "the step matrix M - h D - h^2 K is singular or not finite"};
   }
+  last_change_ = free_;
   const double* dv = free_.data();
   for (int i : system->free_vertices()) {
     for (int c = 3 * i; c < 3 * i + 3; ++c) {

@@ -31,7 +31,7 @@ class LinearlyImplicitEuler final : public Integrator {
                             const StepStates& states) override;
 
  private:
-  std::vector<double> direction_x_, direction_v_, force_, free_;
+  std::vector<double> direction_x_, direction_v_, force_, last_change_;
 };
 
 }  // namespace dpe

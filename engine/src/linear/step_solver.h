@@ -8,6 +8,11 @@
 //   3. if S is not positive definite, or GMRES does not get there, A is factorised by
 //      sparse LU with partial pivoting (Eigen::SparseLU), which needs neither.
 // Each way gives the solution of the same exact system, so derivative passes are exact.
+//
+// For large systems, or when asked for, A z = b is solved by a Krylov method instead
+// (iterative_solver.h), to a relative residual of `tolerance`, forward and backward:
+// then derivatives are exact to that tolerance. Where that fails the way above takes
+// over.
 #ifndef DPE_ENGINE_LINEAR_STEP_SOLVER_H_
 #define DPE_ENGINE_LINEAR_STEP_SOLVER_H_
 
@@ -19,24 +24,34 @@
 #include "dpe/engine/timings.h"
 #include "linear/block_pattern.h"
 #include "linear/cholesky.h"
+#include "linear/iterative_solver.h"
 
 namespace dpe {
 
 // What the solvers of one object share; they take turns on one thread.
 struct StepSolverContext {
   // The pattern must outlive the context.
-  explicit StepSolverContext(const BlockPattern& pattern)
-      : pattern(pattern), analysis(std::make_shared<CholeskyAnalysis>(pattern)) {}
+  explicit StepSolverContext(const BlockPattern& pattern) : pattern(pattern) {}
 
   // Bytes that a factorised StepSolver takes.
-  size_t solver_bytes() const;
+  size_t solver_bytes();
+  // Made at the first use: large systems may never need it.
+  const std::shared_ptr<CholeskyAnalysis>& analysis();
 
   const BlockPattern& pattern;
-  std::shared_ptr<CholeskyAnalysis> analysis;
+  bool iterative = false;
+  double tolerance = 1e-12;    // of the Krylov method
   Timings* timings = nullptr;  // if set, receives the time of factorising and solving
+  IterativeWorkspace iterative_work;
   std::vector<double> symmetric_values;
   std::vector<double> basis, work, residual, right;  // of GMRES
+
+ private:
+  std::shared_ptr<CholeskyAnalysis> analysis_;
 };
+
+// Whether "auto" takes the Krylov method for this many unknowns.
+bool PrefersIterativeSolver(int num_rows);
 
 class StepSolver {
  public:
@@ -61,12 +76,18 @@ class StepSolver {
   bool KeepFactorization();
 
   // z = A^{-1} b, or A^{-T} b if `transposed`; b and z may be the same array. False if
-  // that cannot be solved to rounding level.
-  bool Solve(const double* b, double* z, bool transposed);
+  // that cannot be solved to rounding level (to the tolerance, by the Krylov method).
+  //
+  // @param guess  if not null, where a Krylov method starts from
+  bool Solve(const double* b, double* z, bool transposed,
+             const double* guess = nullptr);
 
  private:
   using SparseLU = Eigen::SparseLU<Eigen::SparseMatrix<double>>;
 
+  bool FactorizeDirectly();
+  bool SolveDirectly(const double* b, double* z, bool transposed);
+  bool SolveByKrylov(const double* b, double* z, bool transposed, const double* guess);
   void Multiply(const double* x, double* y, bool transposed) const;
   bool SolveByGmres(const double* b, double* z, bool transposed);
   // One restart cycle; returns the norm of the residual that it reached.
@@ -78,7 +99,9 @@ class StepSolver {
   std::shared_ptr<StepSolverContext> context_;
   const BlockPattern& pattern_;
   std::vector<double> values_;
-  Cholesky cholesky_;
+  BlockJacobi jacobi_;
+  std::unique_ptr<Cholesky> cholesky_;
+  bool iterative_ = false;  // the matrix at hand is solved by the Krylov method
   bool factorized_ = false;
   bool symmetric_ = true;
   std::unique_ptr<SparseLU> lu_;  // last resort

@@ -96,6 +96,8 @@ struct Scene {
   Eigen::Vector3d wind = Eigen::Vector3d::Zero();  // m/s
   Eigen::Vector3d gravity = {0.0, -9.81, 0.0};     // m/s^2
   AerodynamicsLaw aerodynamics = AerodynamicsLaw::kAuthored;
+  // How steps are solved: "cholesky" to rounding level, "cg" by a Krylov method to the
+  // relative residual `tolerance`; "auto" takes the latter above 10,000 unknowns.
   std::string solver = "auto";
   bool estimate_wind = false;
   std::vector<ClothObject> objects;
