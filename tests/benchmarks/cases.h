@@ -1,0 +1,55 @@
+// What is measured: the scenes, grids and integration methods that all benchmarks
+// share.
+#ifndef DPE_TESTS_BENCHMARKS_CASES_H_
+#define DPE_TESTS_BENCHMARKS_CASES_H_
+
+#include <string>
+
+#include "dpe/engine/cloth_builder.h"
+#include "dpe/engine/scene.h"
+#include "dpe/engine/simulator.h"
+
+namespace dpe::bench {
+
+// The methods to measure; another one is one more line.
+constexpr IntegrationMethod kMethods[] = {
+    IntegrationMethod::kLinearlyImplicitEuler,
+    IntegrationMethod::kImplicitEuler,
+};
+
+// A square grid of `size` x `size` vertices and how much of it to simulate: fewer
+// frames of larger cloths, so that a run of everything stays below four minutes.
+struct GridPlan {
+  int size;
+  int num_frames;    // the initial state included, as everywhere
+  int num_rollouts;  // measured in one repetition
+};
+
+constexpr GridPlan kGrids[] = {
+    {12, 100, 2}, {24, 51, 1}, {48, 16, 1}, {96, 6, 1}, {192, 3, 1},
+};
+
+// Where Newton's method stops, see SimulatorOptions. The default of 1e-13 is below what
+// rounding leaves of the residual from 24 x 24 vertices on, and method 3 then fails.
+constexpr double kNewtonTolerance = 1e-11;
+
+struct Case {
+  ScenePreset preset = ScenePreset::kSide;
+  std::string preset_name = "side";
+  IntegrationMethod method = IntegrationMethod::kLinearlyImplicitEuler;
+  GridPlan plan = kGrids[0];
+};
+
+// The preset's cloth of 7 m on the case's grid; every stiffness is to be estimated
+// (nL).
+Scene MakeScene(const Case& c);
+
+// The options of every simulator here.
+SimulatorOptions MakeOptions();
+
+// "<what>/<preset>/method:<number>/grid:<size>", which table.py takes apart again.
+std::string CaseName(const std::string& what, const Case& c);
+
+}  // namespace dpe::bench
+
+#endif  // DPE_TESTS_BENCHMARKS_CASES_H_

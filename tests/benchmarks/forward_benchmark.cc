@@ -1,0 +1,77 @@
+// A forward frame, and beside it the floor.
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <string>
+
+#include "benchmarks.h"
+#include "cases.h"
+#include "cholesky_floor.h"
+#include "dpe/engine/simulator.h"
+#include "factorization_watch.h"
+#include "resource_usage.h"
+
+namespace dpe::bench {
+namespace {
+
+// The floor of a case's grid and preset. The last one is kept: methods and repetitions
+// that follow each other share its analysis, while each measures anew. Null if there is
+// no matrix to measure.
+CholeskyFloor* FloorOf(const Case& c) {
+  static std::string last_key;
+  static std::unique_ptr<CholeskyFloor> last;
+  const std::string key = c.preset_name + std::to_string(c.plan.size);
+  if (key == last_key) return last.get();
+  last_key = key;
+  last.reset();
+  const SymmetricMatrix matrix = StepMatrix(c);
+  if (matrix.num_rows() > 0) last = std::make_unique<CholeskyFloor>(matrix);
+  return last.get();
+}
+
+void Forward(benchmark::State& state, const Case& c) {
+  CholeskyFloor* const floor = FloorOf(c);
+  Simulator simulator(MakeScene(c), MakeOptions());
+  const FactorizationWatch watch;
+  const double start = CpuSeconds();
+  for (auto _ : state) {
+    const Trajectory trajectory = simulator.Simulate(c.plan.num_frames);
+    if (!trajectory.status.ok()) {
+      state.SkipWithError(trajectory.status.Message().c_str());
+      return;
+    }
+  }
+  const double num_frames =
+      static_cast<double>(state.iterations()) * (c.plan.num_frames - 1);
+  const double milliseconds = 1e3 * (CpuSeconds() - start) / num_frames;
+  state.counters["ms_per_frame"] = milliseconds;
+  state.counters["vertices"] = c.plan.size * c.plan.size;
+  state.counters["factorizations_per_frame"] = watch.count() / num_frames;
+  if (floor == nullptr) return;
+  const double floor_ms = floor->Milliseconds(0.15);
+  state.counters["floor_ms"] = floor_ms;
+  state.counters["ratio_to_floor"] = milliseconds / floor_ms;
+  state.counters["factor_nonzeros"] = floor->num_factor_nonzeros();
+}
+
+void RegisterPreset(ScenePreset preset, const std::string& name) {
+  for (const GridPlan& plan : kGrids) {
+    for (IntegrationMethod method : kMethods) {
+      const Case c{preset, name, method, plan};
+      benchmark::RegisterBenchmark(CaseName("forward", c).c_str(),
+                                   [c](benchmark::State& state) { Forward(state, c); })
+          ->Unit(benchmark::kMillisecond)
+          ->MeasureProcessCPUTime()
+          ->Iterations(plan.num_rollouts);
+    }
+  }
+}
+
+}  // namespace
+
+void RegisterForward() {
+  RegisterPreset(ScenePreset::kSide, "side");
+  RegisterPreset(ScenePreset::kFlag, "flag");
+}
+
+}  // namespace dpe::bench

@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""Turns the JSON of dpe_benchmarks --benchmark_out into the tables of docs/performance.md.
+
+    table.py FILE.json...
+
+Of the repetitions of a benchmark the least of every time is taken, of other counters the
+last. The exponent of a row is that of the growth from the next smaller grid,
+log(time ratio) / log(ratio of the numbers of vertices).
+"""
+import json
+import math
+import re
+import sys
+
+TIMES = ("ms", "ms_per_frame", "floor_ms", "rollout_ms", "backward_ms",
+         "us_per_frame_and_column")
+PRESET_ORDER = ("side", "flag")
+
+
+def read(paths):
+    """Benchmark name without run options -> counters, least times."""
+    results = {}
+    for path in paths:
+        with open(path, encoding="utf-8") as file:
+            runs = json.load(file)["benchmarks"]
+        for run in runs:
+            if run.get("run_type") == "iteration":
+                merge(results.setdefault(short_name(run["run_name"]), {}), run)
+    return results
+
+
+def short_name(run_name):
+    return re.sub(r"/(iterations|repeats):\d+|/process_time", "", run_name)
+
+
+def merge(result, run):
+    for key, value in run.items():
+        if key in TIMES and key in result:
+            value = min(value, result[key])
+        result[key] = value
+
+
+def parts(name):
+    """"forward/side/method:2/grid:12" -> ("forward", "side", {"method": 2, ...})."""
+    what, preset, *rest = name.split("/")
+    return what, preset, {k: int(v) for k, v in (r.split(":") for r in rest)}
+
+
+def select(results, kind):
+    """Rows of one kind, as (preset, fields, counters), in the order of the tables."""
+    rows = []
+    for name, counters in results.items():
+        what, preset, fields = parts(name)
+        if what == kind or kind.endswith("*") and what.startswith(kind[:-1]):
+            rows.append((preset, dict(fields, what=what), counters))
+    order = {preset: k for k, preset in enumerate(PRESET_ORDER)}
+    rows.sort(key=lambda r: (order.get(r[0], 9), r[1]["method"]))
+    return rows
+
+
+def number(value, digits=3):
+    """Three significant digits, without an exponent."""
+    if value is None or (isinstance(value, float) and not math.isfinite(value)):
+        return "–"
+    if value == 0:
+        return "0"
+    if abs(value) < 1e-3:
+        return f"{value:.1e}"
+    decimals = max(0, digits - 1 - math.floor(math.log10(abs(value))))
+    return f"{value:,.{decimals}f}"
+
+
+def ratio(a, b):
+    return a / b if a is not None and b else None
+
+
+def exponent(key, counters, previous):
+    if previous is None or key not in counters or key not in previous:
+        return None
+    growth = math.log(counters["vertices"] / previous["vertices"])
+    return math.log(counters[key] / previous[key]) / growth
+
+
+def table(title, heads, rows):
+    if not rows:
+        return
+    print(f"### {title}\n")
+    print("| " + " | ".join(heads) + " |")
+    print("|" + "---|" * len(heads))
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+    print()
+
+
+def failure(counters, num_cells):
+    return ["failed: " + counters["error_message"]] + ["–"] * (num_cells - 1)
+
+
+class Series:
+    """Remembers the last successful row of each series, for the exponents."""
+
+    def __init__(self):
+        self.last = {}
+
+    def exponent(self, series, key, counters):
+        previous = self.last.get(series)
+        self.last[series] = counters
+        return number(exponent(key, counters, previous), 3)
+
+
+def grid_name(fields):
+    return "{0} × {0}".format(fields["grid"])
+
+
+def forward(results):
+    rows, series = [], Series()
+    for preset, fields, c in select(results, "forward"):
+        cells = [preset, str(fields["method"]), grid_name(fields)]
+        if c.get("error_occurred"):
+            rows.append(cells + failure(c, 6))
+            continue
+        systems = c["factorizations_per_frame"]
+        floor = c.get("floor_ms")
+        rows.append(cells + [
+            number(c["ms_per_frame"]), number(floor),
+            number(ratio(c["ms_per_frame"], floor)), number(systems),
+            number(ratio(c["ms_per_frame"], floor * systems if floor else None)),
+            series.exponent((preset, fields["method"]), "ms_per_frame", c)])
+    table("Forward frame",
+          ["scene", "method", "grid", "ms per frame", "floor, ms", "ratio to floor",
+           "factorisations per frame", "ratio to that many floors", "exponent"], rows)
+
+
+def gradient(results):
+    rows, series = [], Series()
+    for preset, fields, c in select(results, "gradient"):
+        cells = [preset, str(fields["method"]), grid_name(fields)]
+        if c.get("error_occurred"):
+            rows.append(cells + failure(c, 6))
+            continue
+        name = "forward/{}/method:{}/grid:{}".format(preset, fields["method"],
+                                                     fields["grid"])
+        alone = results.get(name, {}).get("ms_per_frame")
+        rows.append(cells + [
+            number(c["rollout_ms"]), number(c["backward_ms"]),
+            number(c["ms_per_frame"]), number(ratio(c["ms_per_frame"], alone)),
+            number(c["peak_mib"]),
+            series.exponent((preset, fields["method"]), "ms_per_frame", c)])
+    table("Gradient (adjoint, all stiffnesses), per frame",
+          ["scene", "method", "grid", "recorded rollout, ms", "backward step, ms",
+           "both, ms", "× forward frame", "memory, MiB", "exponent"], rows)
+
+
+def jacobian(results):
+    rows = []
+    for _, fields, c in select(results, "jacobian"):
+        cells = [str(fields["method"]), grid_name(fields)]
+        if c.get("error_occurred"):
+            rows.append(cells + failure(c, 6))
+            continue
+        rows.append(cells + [
+            number(c["columns"], 6), str(int(c["frames"])), str(int(c["threads"])),
+            number(c["ms"]), number(c["us_per_frame_and_column"]),
+            number(c["peak_mib"])])
+    table("Tangent Jacobian of all positions, scene side",
+          ["method", "grid", "columns", "frames", "threads", "ms (processor)",
+           "µs per frame and column", "memory, MiB"], rows)
+
+
+def inverse_dynamics(results):
+    rows = []
+    for _, fields, c in select(results, "inverse_dynamics"):
+        cells = [str(fields["method"]), grid_name(fields)]
+        if c.get("error_occurred"):
+            rows.append(cells + failure(c, 5))
+            continue
+        rows.append(cells + [
+            number(c["parameters"], 6), str(int(c["frames"])), number(c["ms"]),
+            number(c["deviation_percent"]), number(c["peak_mib"])])
+    table("Inverse dynamics, side nL, exact observations",
+          ["method", "grid", "parameters", "frames", "ms", "deviation, %",
+           "memory, MiB"], rows)
+
+
+def estimation(results):
+    rows = []
+    for _, fields, c in select(results, "estimation_*"):
+        cells = [fields["what"][len("estimation_"):].replace("_", " "),
+                 str(fields["method"]), grid_name(fields)]
+        if c.get("error_occurred"):
+            rows.append(cells + failure(c, 8))
+            continue
+        rows.append(cells + [
+            str(int(c["frames"])), number(c["parameters"], 6),
+            str(int(c["iterations"])), str(int(c["rollouts"])),
+            str(int(c["jacobians"])), number(c["ms"]), number(c["final_rms"]),
+            number(c["peak_mib"]), c.get("label", "")])
+    table("Whole estimations, scene side",
+          ["what", "method", "grid", "frames", "parameters", "iterations", "rollouts",
+           "Jacobians", "ms", "RMS, m", "memory, MiB", "ended"], rows)
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    results = read(sys.argv[1:])
+    for write in (forward, gradient, jacobian, inverse_dynamics, estimation):
+        write(results)
+
+
+if __name__ == "__main__":
+    main()
