@@ -16,10 +16,21 @@ SimulatorOptions MakeOptions() {
   return options;
 }
 
+namespace {
+
+// Where the step matrices of fine grids are indefinite, or Newton's method needs many.
+bool IsSlow(const Case& c) {
+  const bool is_newton = c.method != IntegrationMethod::kLinearlyImplicitEuler;
+  return (is_newton && c.plan.size > 96) ||
+         (c.preset == ScenePreset::kFlag && c.plan.size > 48);
+}
+
+}  // namespace
+
 std::string CaseName(const std::string& what, const Case& c) {
   return what + "/" + c.preset_name +
          "/method:" + std::to_string(static_cast<int>(c.method)) +
-         "/grid:" + std::to_string(c.plan.size);
+         "/grid:" + std::to_string(c.plan.size) + (IsSlow(c) ? "/slow:1" : "");
 }
 
 }  // namespace dpe::bench

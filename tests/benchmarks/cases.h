@@ -47,7 +47,8 @@ Scene MakeScene(const Case& c);
 // The options of every simulator here.
 SimulatorOptions MakeOptions();
 
-// "<what>/<preset>/method:<number>/grid:<size>", which table.py takes apart again.
+// "<what>/<preset>/method:<number>/grid:<size>", which table.py takes apart again; with
+// "/slow:1" at its end for cases that take half a minute or more, see README.md.
 std::string CaseName(const std::string& what, const Case& c);
 
 }  // namespace dpe::bench

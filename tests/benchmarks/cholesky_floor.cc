@@ -17,6 +17,7 @@ namespace dpe::bench {
 CholeskyFloor::CholeskyFloor(const SymmetricMatrix& matrix) : matrix_(matrix) {
   if (omp_set_max_active_levels != nullptr) omp_set_max_active_levels(0);
   cholmod_start(&common_);
+  common_.print = 0;
   common_.supernodal = CHOLMOD_SUPERNODAL;
   common_.nmethods = 1;
   common_.method[0].ordering = CHOLMOD_NESDIS;

@@ -59,7 +59,7 @@ def select(results, kind):
 
 
 def number(value, digits=3):
-    """Three significant digits, without an exponent."""
+    """Three significant digits, without an exponent unless it is small."""
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
         return "–"
     if value == 0:
@@ -68,6 +68,10 @@ def number(value, digits=3):
         return f"{value:.1e}"
     decimals = max(0, digits - 1 - math.floor(math.log10(abs(value))))
     return f"{value:,.{decimals}f}"
+
+
+def count(value):
+    return f"{round(value):,}"
 
 
 def ratio(a, b):
@@ -93,7 +97,8 @@ def table(title, heads, rows):
 
 
 def failure(counters, num_cells):
-    return ["failed: " + counters["error_message"]] + ["–"] * (num_cells - 1)
+    cause = counters["error_message"].split(": ")[-1].split(" (")[0]
+    return ["failed: " + cause] + ["–"] * (num_cells - 1)
 
 
 class Series:
@@ -131,6 +136,15 @@ def forward(results):
            "factorisations per frame", "ratio to that many floors", "exponent"], rows)
 
 
+def forward_frame(results, preset, fields):
+    """The forward figure that belongs to a gradient's, or None."""
+    for other, other_fields, c in select(results, "forward"):
+        if (other, other_fields["method"], other_fields["grid"]) == (
+                preset, fields["method"], fields["grid"]):
+            return c.get("ms_per_frame")
+    return None
+
+
 def gradient(results):
     rows, series = [], Series()
     for preset, fields, c in select(results, "gradient"):
@@ -138,9 +152,7 @@ def gradient(results):
         if c.get("error_occurred"):
             rows.append(cells + failure(c, 6))
             continue
-        name = "forward/{}/method:{}/grid:{}".format(preset, fields["method"],
-                                                     fields["grid"])
-        alone = results.get(name, {}).get("ms_per_frame")
+        alone = forward_frame(results, preset, fields)
         rows.append(cells + [
             number(c["rollout_ms"]), number(c["backward_ms"]),
             number(c["ms_per_frame"]), number(ratio(c["ms_per_frame"], alone)),
@@ -159,7 +171,7 @@ def jacobian(results):
             rows.append(cells + failure(c, 6))
             continue
         rows.append(cells + [
-            number(c["columns"], 6), str(int(c["frames"])), str(int(c["threads"])),
+            count(c["columns"]), count(c["frames"]), count(c["threads"]),
             number(c["ms"]), number(c["us_per_frame_and_column"]),
             number(c["peak_mib"])])
     table("Tangent Jacobian of all positions, scene side",
@@ -175,7 +187,7 @@ def inverse_dynamics(results):
             rows.append(cells + failure(c, 5))
             continue
         rows.append(cells + [
-            number(c["parameters"], 6), str(int(c["frames"])), number(c["ms"]),
+            count(c["parameters"]), count(c["frames"]), number(c["ms"]),
             number(c["deviation_percent"]), number(c["peak_mib"])])
     table("Inverse dynamics, side nL, exact observations",
           ["method", "grid", "parameters", "frames", "ms", "deviation, %",
@@ -191,9 +203,9 @@ def estimation(results):
             rows.append(cells + failure(c, 8))
             continue
         rows.append(cells + [
-            str(int(c["frames"])), number(c["parameters"], 6),
-            str(int(c["iterations"])), str(int(c["rollouts"])),
-            str(int(c["jacobians"])), number(c["ms"]), number(c["final_rms"]),
+            count(c["frames"]), count(c["parameters"]),
+            count(c["iterations"]), count(c["rollouts"]),
+            count(c["jacobians"]), number(c["ms"]), number(c["final_rms"]),
             number(c["peak_mib"]), c.get("label", "")])
     table("Whole estimations, scene side",
           ["what", "method", "grid", "frames", "parameters", "iterations", "rollouts",
