@@ -15,6 +15,7 @@ namespace dpe::bench {
 constexpr IntegrationMethod kMethods[] = {
     IntegrationMethod::kLinearlyImplicitEuler,
     IntegrationMethod::kImplicitEuler,
+    IntegrationMethod::kTrBdf2,
 };
 
 // A square grid of `size` x `size` vertices and how much of it to simulate: fewer
