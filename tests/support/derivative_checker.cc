@@ -16,7 +16,8 @@ DerivativeCheck CheckDirectionalDerivative(const VectorFunction& f,
                                            const Eigen::VectorXd& direction,
                                            const Eigen::VectorXd& analytic,
                                            const std::vector<double>& steps) {
-  static const std::vector<double> kSteps = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
+  static const std::vector<double> kSteps = {1e-2, 1e-3, 1e-4, 1e-5,
+                                             1e-6, 1e-7, 1e-8, 1e-9};
   DerivativeCheck best;
   best.relative_error = std::numeric_limits<double>::infinity();
   for (double s : steps.empty() ? kSteps : steps) {

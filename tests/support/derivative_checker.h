@@ -29,7 +29,7 @@ std::ostream& operator<<(std::ostream& out, const DerivativeCheck& check);
 // rounding whose place is not known beforehand, so a range of steps is tried and the
 // best agreement reported. A wrong derivative agrees at no step.
 //
-// @param steps  values of s, in units of the direction; empty: 1e-2 ... 1e-7
+// @param steps  values of s, in units of the direction; empty: 1e-2 ... 1e-9
 DerivativeCheck CheckDirectionalDerivative(const VectorFunction& f,
                                            const Eigen::VectorXd& x,
                                            const Eigen::VectorXd& direction,
