@@ -1,5 +1,5 @@
 // Jacobians of residual rows through one object, forward (tangent) and backward
-// (adjoint). Both walk over the steps once and share StepLinearization; they work on
+// (adjoint). Both walk over the steps once and share StageLinearization; they work on
 // blocks of columns (tangent) or residual rows (adjoint) of a fixed size, so that the
 // result does not depend on the number of threads.
 #ifndef DPE_ENGINE_DERIVATIVES_JACOBIAN_PASS_H_
