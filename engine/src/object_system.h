@@ -41,7 +41,7 @@ class ObjectSystem {
     return std::make_unique<StepSolver>(solver_context_);
   }
   // Bytes that a kept solver takes.
-  size_t solver_bytes() const { return solver_context_->solver_bytes(); }
+  size_t solver_bytes() const { return solver_context_->solver_bytes(IsSymmetric()); }
 
   const ObjectParameters& parameters() const { return parameters_; }
   // Columns of this object's parameters in the layout, and the same renumbered from 0.

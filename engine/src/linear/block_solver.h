@@ -2,9 +2,9 @@
 // and blocks of adjoint vectors need. Right-hand sides are the columns of a row-major
 // n x m array, so that sparse products on it stream over contiguous memory.
 //
-// Up to kDenseLimit unknowns A is factorised densely (LAPACK dgetrf): a dense
-// triangular solve runs at the speed of matrix products, which beats several sparse
-// sweeps per column there. Larger systems go column by column through StepSolver.
+// The sparse factors of A serve all of them, a block of columns at a time, so that the
+// factors are read once per block and the arithmetic is that of dense products. Where A
+// has no exact factors (direct_solver.h) columns are solved one by one.
 #ifndef DPE_ENGINE_LINEAR_BLOCK_SOLVER_H_
 #define DPE_ENGINE_LINEAR_BLOCK_SOLVER_H_
 
@@ -12,17 +12,17 @@
 
 #include "linear/block_pattern.h"
 #include "linear/step_solver.h"
+#include "linear/supernodal_solve.h"
 
 namespace dpe {
 
 class BlockSolver {
  public:
-  static constexpr int kDenseLimit = 1300;
+  explicit BlockSolver(const BlockPattern& pattern) : pattern_(pattern) {}
 
-  explicit BlockSolver(const BlockPattern& pattern);
-
-  // Prepares for `solver`'s matrix, whose values must be assembled. `num_columns` is
-  // the total number of right-hand sides that will follow.
+  // Prepares for `solver`'s matrix, whose values must be assembled; `solver` must stay
+  // as it is until the last Solve. `num_columns` is the total number of right-hand
+  // sides that will follow.
   // @return false if the matrix cannot be factorised
   bool Prepare(StepSolver* solver, bool symmetric, int num_columns);
 
@@ -30,14 +30,14 @@ class BlockSolver {
   // several threads at once if thread_safe().
   bool Solve(double* right, int count, bool transposed) const;
 
-  bool thread_safe() const { return dense_; }
+  bool thread_safe() const { return factor_.lower != nullptr; }
 
  private:
+  bool SolveOneByOne(double* right, int count, bool transposed) const;
+
   const BlockPattern& pattern_;
   StepSolver* solver_ = nullptr;
-  bool dense_ = false;
-  std::vector<double> lu_;  // column-major n x n
-  std::vector<int> pivots_;
+  SupernodalFactor factor_;
 };
 
 }  // namespace dpe

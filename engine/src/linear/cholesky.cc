@@ -1,12 +1,10 @@
 #include "linear/cholesky.h"
 
-#include <algorithm>
 #include <cstring>
 #include <new>
 #include <utility>
 
 #include "linear/serial_openmp.h"
-#include "linear/supernodal_solve.h"
 
 namespace dpe {
 
@@ -32,6 +30,7 @@ CholeskyAnalysis::CholeskyAnalysis(const BlockPattern& pattern) {
   symbolic_ = cholmod_analyze(&matrix_, &common_);
   if (symbolic_ == nullptr) throw std::bad_alloc();
   matrix_.xtype = CHOLMOD_REAL;
+  structure_ = std::make_shared<SupernodalStructure>(pattern, *symbolic_);
 }
 
 CholeskyAnalysis::~CholeskyAnalysis() {
@@ -60,16 +59,16 @@ bool Cholesky::Factorize(const double* values) {
   return common->status == CHOLMOD_OK && factor_->minor == factor_->n;
 }
 
-void Cholesky::Solve(const double* b, double* x) {
+SupernodalFactor Cholesky::factor() const {
   SupernodalFactor factor;
-  factor.num_supernodes = static_cast<int>(factor_->nsuper);
-  factor.first_column = static_cast<const int*>(factor_->super);
-  factor.row_start = static_cast<const int*>(factor_->pi);
-  factor.value_start = static_cast<const int*>(factor_->px);
-  factor.row_indices = static_cast<const int*>(factor_->s);
-  factor.values = static_cast<const double*>(factor_->x);
-  if (b != x) std::copy_n(b, factor_->n, x);
-  SolveSupernodal(factor, &analysis_->work_, x);
+  const SupernodalStructure& structure = *analysis_->structure_;
+  factor.num_supernodes = structure.num_supernodes;
+  factor.first_column = structure.first_column.data();
+  factor.row_start = structure.row_start.data();
+  factor.row_indices = structure.rows.data();
+  factor.value_start = structure.value_start.data();
+  factor.lower = factor.upper = static_cast<const double*>(factor_->x);
+  return factor;
 }
 
 }  // namespace dpe

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "linear/block_pattern.h"
+#include "linear/supernodal_solve.h"
+#include "linear/supernodal_structure.h"
 
 namespace dpe {
 
@@ -26,12 +28,17 @@ class CholeskyAnalysis {
   // Bytes that the values of one factor take.
   size_t factor_bytes() const;
 
+  // The structure that CHOLMOD found; SupernodalLu uses it too.
+  const std::shared_ptr<const SupernodalStructure>& structure() const {
+    return structure_;
+  }
+
  private:
   friend class Cholesky;
   cholmod_common common_;
   cholmod_sparse matrix_;  // the pattern; values are set per factorisation
   cholmod_factor* symbolic_ = nullptr;
-  std::vector<double> work_;
+  std::shared_ptr<const SupernodalStructure> structure_;
 };
 
 class Cholesky {
@@ -45,8 +52,8 @@ class Cholesky {
   // triangle is not read). False if it is not positive definite.
   bool Factorize(const double* values);
 
-  // Solves S x = b; b and x may be the same array. Factorize must have succeeded.
-  void Solve(const double* b, double* x);
+  // For SolveSupernodal; Factorize must have succeeded.
+  SupernodalFactor factor() const;
 
  private:
   std::shared_ptr<CholeskyAnalysis> analysis_;

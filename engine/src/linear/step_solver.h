@@ -1,29 +1,19 @@
-// Solves A z = b and A^T z = b for the matrix of one integration step.
-//
-// A is nearly symmetric: only spring damping and drag make it non-symmetric, and it is
-// positive definite unless springs are strongly compressed. So
-//   1. the symmetric part S = (A + A^T) / 2 is factorised by sparse Cholesky;
-//   2. if A is symmetric that is the answer; otherwise restarted GMRES (Saad & Schultz
-//      1986) on A, preconditioned by S, iterates to rounding level;
-//   3. if S is not positive definite, or GMRES does not get there, A is factorised by
-//      sparse LU with partial pivoting (Eigen::SparseLU), which needs neither.
-// Each way gives the solution of the same exact system, so derivative passes are exact.
-//
-// For large systems, or when asked for, A z = b is solved by a Krylov method instead
-// (iterative_solver.h), to a relative residual of `tolerance`, forward and backward:
-// then derivatives are exact to that tolerance. Where that fails the way above takes
-// over.
+// Solves A z = b and A^T z = b for the matrix of one integration step, by one of two
+// ways behind one interface:
+//   - directly (direct_solver.h), to rounding level;
+//   - for large systems, or when asked for, by a Krylov method (iterative_solver.h), to
+//   a
+//     relative residual of `tolerance`, forward and backward: then derivatives are
+//     exact to that tolerance. Where it fails the direct way takes over.
 #ifndef DPE_ENGINE_LINEAR_STEP_SOLVER_H_
 #define DPE_ENGINE_LINEAR_STEP_SOLVER_H_
 
-#include <Eigen/SparseCore>
-#include <Eigen/SparseLU>
 #include <memory>
 #include <vector>
 
 #include "dpe/engine/timings.h"
 #include "linear/block_pattern.h"
-#include "linear/cholesky.h"
+#include "linear/direct_solver.h"
 #include "linear/iterative_solver.h"
 
 namespace dpe {
@@ -31,23 +21,19 @@ namespace dpe {
 // What the solvers of one object share; they take turns on one thread.
 struct StepSolverContext {
   // The pattern must outlive the context.
-  explicit StepSolverContext(const BlockPattern& pattern) : pattern(pattern) {}
+  explicit StepSolverContext(const BlockPattern& pattern)
+      : pattern(pattern), direct(std::make_shared<DirectSolverContext>(pattern)) {}
 
   // Bytes that a factorised StepSolver takes.
-  size_t solver_bytes();
-  // Made at the first use: large systems may never need it.
-  const std::shared_ptr<CholeskyAnalysis>& analysis();
+  size_t solver_bytes(bool symmetric);
 
   const BlockPattern& pattern;
+  std::shared_ptr<DirectSolverContext> direct;
   bool iterative = false;
   double tolerance = 1e-12;    // of the Krylov method
   Timings* timings = nullptr;  // if set, receives the time of factorising and solving
   IterativeWorkspace iterative_work;
-  std::vector<double> symmetric_values;
-  std::vector<double> basis, work, residual, right;  // of GMRES
-
- private:
-  std::shared_ptr<CholeskyAnalysis> analysis_;
+  std::vector<double> right;
 };
 
 // Whether "auto" takes the Krylov method for this many unknowns.
@@ -66,13 +52,16 @@ class StepSolver {
   //                   finite may only show in Solve
   bool Factorize(bool symmetric);
 
+  // The same by the direct way, whatever the context prefers.
+  bool FactorizeDirectly(bool symmetric);
+
   bool factorized() const { return factorized_; }
   // Forgets the factorisation.
   void Reset() { factorized_ = false; }
 
   // Goes on with the factorisation of an earlier, nearby matrix: `values` may have
-  // changed since, and GMRES makes up for the difference, so solves are as exact. False
-  // if the matrix cannot be factorised.
+  // changed since, and iteration makes up for the difference, so solves are as exact.
+  // False if the matrix cannot be factorised.
   bool KeepFactorization();
 
   // z = A^{-1} b, or A^{-T} b if `transposed`; b and z may be the same array. False if
@@ -82,30 +71,21 @@ class StepSolver {
   bool Solve(const double* b, double* z, bool transposed,
              const double* guess = nullptr);
 
- private:
-  using SparseLU = Eigen::SparseLU<Eigen::SparseMatrix<double>>;
+  // The factors of A for many right-hand sides, after Factorize; without values if
+  // there are none that are exact (see DirectSolver).
+  SupernodalFactor ExactFactor();
 
-  bool FactorizeDirectly();
-  bool SolveDirectly(const double* b, double* z, bool transposed);
+ private:
   bool SolveByKrylov(const double* b, double* z, bool transposed, const double* guess);
-  void Multiply(const double* x, double* y, bool transposed) const;
-  bool SolveByGmres(const double* b, double* z, bool transposed);
-  // One restart cycle; returns the norm of the residual that it reached.
-  double GmresCycle(const double* residual, double norm, double target, double* z,
-                    bool transposed);
-  bool FactorizeLu();
-  bool SolveByLu(const double* b, double* z, bool transposed);
 
   std::shared_ptr<StepSolverContext> context_;
   const BlockPattern& pattern_;
   std::vector<double> values_;
   BlockJacobi jacobi_;
-  std::unique_ptr<Cholesky> cholesky_;
+  DirectSolver direct_;
   bool iterative_ = false;  // the matrix at hand is solved by the Krylov method
   bool factorized_ = false;
   bool symmetric_ = true;
-  std::unique_ptr<SparseLU> lu_;  // last resort
-  bool has_lu_ = false;
 };
 
 }  // namespace dpe

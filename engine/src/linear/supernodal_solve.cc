@@ -72,7 +72,7 @@ void SolveSupernodal(const SupernodalFactor& factor, std::vector<double>* work,
     double* t = work->data();
     std::copy_n(x + first, columns, t);
     std::fill(t + columns, t + rows, 0.0);
-    ForwardDense(factor.values + factor.value_start[s], rows, columns, t);
+    ForwardDense(factor.lower + factor.value_start[s], rows, columns, t);
     std::copy_n(t, columns, x + first);
     for (int i = columns; i < rows; ++i) x[row[i]] += t[i];
   }
@@ -85,7 +85,7 @@ void SolveSupernodal(const SupernodalFactor& factor, std::vector<double>* work,
     double* t = work->data();
     std::copy_n(x + first, columns, t);
     for (int i = columns; i < rows; ++i) t[i] = x[row[i]];
-    BackwardDense(factor.values + factor.value_start[s], rows, columns, t);
+    BackwardDense(factor.upper + factor.value_start[s], rows, columns, t);
     std::copy_n(t, columns, x + first);
   }
 }

@@ -1,30 +1,45 @@
-// Triangular solves with a supernodal factor L L^T, for one right-hand side.
+// Triangular solves with a supernodal factorisation A = L U or A = L L^T, for one
+// right-hand side and for many.
 //
 // CHOLMOD's own solve calls BLAS four times per supernode, which for the narrow
 // supernodes of small cloths costs more than the arithmetic (19 us instead of 7 us at
-// 12 x 12 vertices). This one runs plain loops over the same factor.
+// 12 x 12 vertices). These run plain loops, and dense_kernels.h, over the same panels.
 #ifndef DPE_ENGINE_LINEAR_SUPERNODAL_SOLVE_H_
 #define DPE_ENGINE_LINEAR_SUPERNODAL_SOLVE_H_
 
+#include <cstddef>
 #include <vector>
 
 namespace dpe {
 
-// The arrays of a supernodal factor, as CHOLMOD lays them out. Supernode s holds the
-// columns [first_column[s], first_column[s+1]) and the rows row_indices[row_start[s]
-// ...], its own columns first; its values are dense, column-major, at value_start[s].
+// The arrays of a supernodal factor, see supernodal_structure.h. `lower` holds the
+// panels of L and `upper` those of U^T (for L L^T both are the same), each with its
+// diagonal.
 struct SupernodalFactor {
   int num_supernodes = 0;
   const int* first_column = nullptr;
   const int* row_start = nullptr;
-  const int* value_start = nullptr;
   const int* row_indices = nullptr;
-  const double* values = nullptr;
+  const size_t* value_start = nullptr;
+  const double* lower = nullptr;
+  const double* upper = nullptr;
+
+  // The factor of A^T = U^T L^T.
+  SupernodalFactor Transposed() const {
+    SupernodalFactor transposed = *this;
+    transposed.lower = upper;
+    transposed.upper = lower;
+    return transposed;
+  }
 };
 
-// x := L^{-T} L^{-1} x, in the factor's own ordering. `work` is resized as needed.
+// x := U^{-1} L^{-1} x, in the factor's own ordering. `work` is resized as needed.
 void SolveSupernodal(const SupernodalFactor& factor, std::vector<double>* work,
                      double* x);
+
+// The same for `count` right-hand sides, the columns of a row-major array x.
+void SolveSupernodalMany(const SupernodalFactor& factor, int count,
+                         std::vector<double>* work, double* x);
 
 }  // namespace dpe
 

@@ -1,0 +1,172 @@
+#include "linear/direct_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "linear/gmres.h"
+#include "linear/supernodal_solve.h"
+
+namespace dpe {
+namespace {
+
+constexpr int kMaxCycles = 4;
+// The relative residual that counts as rounding level, and the one that is still
+// accepted when the iteration can get no further.
+constexpr double kTarget = 1e-13;
+constexpr double kAccept = 1e-12;
+
+using ConstVector = Eigen::Map<const Eigen::VectorXd>;
+using Vector = Eigen::Map<Eigen::VectorXd>;
+
+}  // namespace
+
+const std::shared_ptr<CholeskyAnalysis>& DirectSolverContext::analysis() {
+  if (!analysis_) analysis_ = std::make_shared<CholeskyAnalysis>(pattern);
+  return analysis_;
+}
+
+size_t DirectSolverContext::factor_bytes(bool symmetric) {
+  return (symmetric ? 1 : 2) * analysis()->factor_bytes();
+}
+
+DirectSolver::DirectSolver(std::shared_ptr<DirectSolverContext> context)
+    : context_(std::move(context)), pattern_(context_->pattern) {
+  context_->residual.resize(pattern_.num_rows());
+  context_->right.resize(pattern_.num_rows());
+}
+
+bool DirectSolver::Factorize(const std::vector<double>& values, bool symmetric) {
+  is_exact_ = true;
+  kind_ = Kind::kNone;
+  if (symmetric) {
+    if (!cholesky_) cholesky_ = std::make_unique<Cholesky>(context_->analysis());
+    if (cholesky_->Factorize(values.data())) kind_ = Kind::kCholesky;
+  }
+  if (kind_ == Kind::kNone) {
+    if (!lu_) lu_ = std::make_unique<SupernodalLu>(context_->analysis()->structure());
+    if (lu_->Factorize(values.data(), &context_->factorization_work)) kind_ = Kind::kLu;
+  }
+  return kind_ != Kind::kNone || FactorizeWithPivots(values);
+}
+
+bool DirectSolver::KeepFactorization(const std::vector<double>& values) {
+  is_exact_ = false;
+  // Partial pivoting is the last resort, without an iteration that could make up.
+  return kind_ != Kind::kPivotedLu || FactorizeWithPivots(values);
+}
+
+void DirectSolver::Multiply(const std::vector<double>& values, const double* x,
+                            double* y, bool transposed) const {
+  if (transposed) {
+    pattern_.MultiplyTransposed(values.data(), x, y);
+  } else {
+    pattern_.Multiply(values.data(), x, y);
+  }
+}
+
+SupernodalFactor DirectSolver::factor() const {
+  return kind_ == Kind::kCholesky ? cholesky_->factor() : lu_->factor();
+}
+
+bool DirectSolver::Solve(const std::vector<double>& values, const double* b, double* z,
+                         bool transposed) {
+  const int n = pattern_.num_rows();
+  if (kind_ == Kind::kPivotedLu) return SolveWithPivots(values, b, z, transposed);
+  std::copy_n(b, n, context_->right.data());  // b and z may be the same array
+  if (kind_ == Kind::kCholesky && is_exact_) {
+    if (b != z) std::copy_n(b, n, z);
+    SolveSupernodal(factor(), &context_->solve_work, z);
+    return ConstVector(z, n).allFinite();
+  }
+  if (SolveByFactor(values, z, transposed)) return true;
+  return FactorizeWithPivots(values) &&
+         SolveWithPivots(values, context_->right.data(), z, transposed);
+}
+
+bool DirectSolver::SolveByFactor(const std::vector<double>& values, double* z,
+                                 bool transposed) {
+  const int n = pattern_.num_rows();
+  const ConstVector right(context_->right.data(), n);
+  Vector residual(context_->residual.data(), n);
+  const SupernodalFactor lu = transposed ? factor().Transposed() : factor();
+  const auto precondition = [&](const double* x, double* y) {
+    std::copy_n(x, n, y);
+    SolveSupernodal(lu, &context_->solve_work, y);
+  };
+  const auto multiply = [&](const double* x, double* y) {
+    Multiply(values, x, y, transposed);
+  };
+  const double scale = right.norm();
+  if (!std::isfinite(scale)) return false;
+  Vector(z, n).setZero();
+  if (scale == 0.0) return true;
+  precondition(right.data(), z);
+  double norm = scale;
+  for (int cycle = 0;; ++cycle) {
+    multiply(z, residual.data());
+    residual = right - residual;
+    const double previous = norm;
+    norm = residual.norm();
+    if (norm <= kTarget * scale) return true;
+    // When a cycle gains little, rounding level is reached; the first solve gains
+    // little where it is that of another matrix.
+    if (cycle == kMaxCycles || !std::isfinite(norm)) break;
+    if (cycle > 0 && !(norm < 0.3 * previous)) break;
+    if (!GmresCycle(n, residual.data(), norm, kTarget * scale, multiply, precondition,
+                    &context_->basis, z)) {
+      break;
+    }
+  }
+  return norm <= kAccept * scale;
+}
+
+SupernodalFactor DirectSolver::ExactFactor(const std::vector<double>& values) {
+  if (kind_ == Kind::kPivotedLu || !is_exact_) return {};
+  const int n = pattern_.num_rows();
+  Vector test(context_->right.data(), n), residual(context_->residual.data(), n);
+  for (int i = 0; i < n; ++i) test[i] = i % 2 == 0 ? 1.0 : -0.5;
+  std::vector<double>& solution = context_->basis;
+  solution.resize(std::max<size_t>(solution.size(), n));
+  std::copy_n(test.data(), n, solution.data());
+  SolveSupernodal(factor(), &context_->solve_work, solution.data());
+  Multiply(values, solution.data(), residual.data(), /*transposed=*/false);
+  if (!((test - residual).norm() <= kAccept * test.norm())) return {};
+  return factor();
+}
+
+bool DirectSolver::FactorizeWithPivots(const std::vector<double>& values) {
+  const int n = pattern_.num_rows();
+  kind_ = Kind::kNone;
+  if (!ConstVector(values.data(), static_cast<int>(values.size())).allFinite()) {
+    return false;
+  }
+  const Eigen::Map<const Eigen::SparseMatrix<double>> matrix(
+      n, n, pattern_.num_nonzeros(), pattern_.column_starts().data(),
+      pattern_.row_indices().data(), values.data());
+  if (!pivoted_lu_) {
+    pivoted_lu_ = std::make_unique<PivotedLu>();
+    pivoted_lu_->analyzePattern(matrix);
+  }
+  pivoted_lu_->factorize(matrix);
+  if (pivoted_lu_->info() == Eigen::Success) kind_ = Kind::kPivotedLu;
+  return kind_ == Kind::kPivotedLu;
+}
+
+bool DirectSolver::SolveWithPivots(const std::vector<double>& values, const double* b,
+                                   double* z, bool transposed) {
+  const int n = pattern_.num_rows();
+  const auto solve = [&](const Eigen::VectorXd& right) -> Eigen::VectorXd {
+    if (transposed) return pivoted_lu_->transpose().solve(right);
+    return pivoted_lu_->solve(right);
+  };
+  const Eigen::VectorXd right = ConstVector(b, n);
+  Eigen::VectorXd solution = solve(right);
+  Multiply(values, solution.data(), context_->residual.data(), transposed);
+  // One step of refinement.
+  solution += solve(right - ConstVector(context_->residual.data(), n));
+  Vector(z, n) = solution;
+  return solution.allFinite();
+}
+
+}  // namespace dpe

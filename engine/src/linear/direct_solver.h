@@ -1,0 +1,93 @@
+// Solves A z = b and A^T z = b to rounding level by a factorisation of A.
+//
+// A is nearly symmetric: only spring damping and drag make it non-symmetric, and it is
+// positive definite unless springs are strongly compressed. The strategy:
+//   1. a symmetric A is factorised by sparse Cholesky (CHOLMOD);
+//   2. if it is not symmetric, or not positive definite, by sparse LU without pivoting
+//      (supernodal_lu.h), which costs twice as much and is exact for A and A^T alike;
+//   3. every solve checks its residual. Where pivoting would have been needed, or where
+//      the factorisation is that of a nearby matrix (KeepFactorization), GMRES with the
+//      factorisation as preconditioner brings it down to rounding level;
+//   4. if that fails, A is factorised by sparse LU with partial pivoting
+//      (Eigen::SparseLU), many times slower.
+// Each way gives the solution of the same exact system, so derivative passes are exact.
+#ifndef DPE_ENGINE_LINEAR_DIRECT_SOLVER_H_
+#define DPE_ENGINE_LINEAR_DIRECT_SOLVER_H_
+
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <memory>
+#include <vector>
+
+#include "linear/block_pattern.h"
+#include "linear/cholesky.h"
+#include "linear/supernodal_lu.h"
+
+namespace dpe {
+
+// What the direct solvers of one object share; they take turns on one thread.
+struct DirectSolverContext {
+  // The pattern must outlive the context.
+  explicit DirectSolverContext(const BlockPattern& pattern) : pattern(pattern) {}
+
+  // Made at the first use: large systems may never need it.
+  const std::shared_ptr<CholeskyAnalysis>& analysis();
+  // Bytes that a factorised DirectSolver takes.
+  size_t factor_bytes(bool symmetric);
+
+  const BlockPattern& pattern;
+  std::vector<double> factorization_work, solve_work;
+  std::vector<double> residual, right, basis;
+
+ private:
+  std::shared_ptr<CholeskyAnalysis> analysis_;
+};
+
+class DirectSolver {
+ public:
+  explicit DirectSolver(std::shared_ptr<DirectSolverContext> context);
+
+  // @param values     A in pattern order
+  // @param symmetric  the caller knows that A is symmetric
+  // @return           false if the matrix is found to be singular; one that is not
+  //                   finite may only show in Solve
+  bool Factorize(const std::vector<double>& values, bool symmetric);
+
+  // Goes on with the factorisation of an earlier, nearby matrix. False if the matrix
+  // cannot be factorised.
+  bool KeepFactorization(const std::vector<double>& values);
+
+  // z = A^{-1} b, or A^{-T} b if `transposed`; b and z may be the same array. `values`
+  // are those of A. False if that cannot be solved to rounding level.
+  bool Solve(const std::vector<double>& values, const double* b, double* z,
+             bool transposed);
+
+  // The factors of A, for many right-hand sides at once; they hold no values if A
+  // itself was not factorised, or not accurately enough to do without iteration.
+  SupernodalFactor ExactFactor(const std::vector<double>& values);
+
+ private:
+  using PivotedLu = Eigen::SparseLU<Eigen::SparseMatrix<double>>;
+  enum class Kind { kNone, kCholesky, kLu, kPivotedLu };
+
+  void Multiply(const std::vector<double>& values, const double* x, double* y,
+                bool transposed) const;
+  SupernodalFactor factor() const;
+  // z with a residual as small as it gets; false if it is not small enough.
+  bool SolveByFactor(const std::vector<double>& values, double* z, bool transposed);
+  bool FactorizeWithPivots(const std::vector<double>& values);
+  bool SolveWithPivots(const std::vector<double>& values, const double* b, double* z,
+                       bool transposed);
+
+  std::shared_ptr<DirectSolverContext> context_;
+  const BlockPattern& pattern_;
+  Kind kind_ = Kind::kNone;
+  bool is_exact_ = true;  // the factorisation is that of the current matrix
+  std::unique_ptr<Cholesky> cholesky_;
+  std::unique_ptr<SupernodalLu> lu_;
+  std::unique_ptr<PivotedLu> pivoted_lu_;
+};
+
+}  // namespace dpe
+
+#endif  // DPE_ENGINE_LINEAR_DIRECT_SOLVER_H_

@@ -1,0 +1,56 @@
+// Sparse LU factorisation without pivoting, of a matrix with the symmetric structure of
+// a BlockPattern: A = L U, L with unit diagonal.
+//
+// The step matrix A = M - h D - h^2 K is nearly symmetric, and its symmetric part is
+// positive definite unless springs are strongly compressed; then elimination without
+// pivoting is stable (Golub & Van Loan 2013, section 4.3.2: growth is bounded by how
+// large the skew part is against the symmetric one). It also serves most indefinite
+// matrices, but without that guarantee: the caller checks residuals.
+//
+// Supernode by supernode (supernodal_structure.h), with the panel of L and that of U^T
+// side by side; both have the same shape and receive the same operations with the roles
+// exchanged. With a supernode's own columns 1 and the rows below 2:
+//   [A11 A12; A21 A22] = [L11 0; L21 I] [U11 U12; 0 S],   S = A22 - L21 U12,
+// and S is the remainder that goes to the parent. Within a panel columns are split in
+// halves: the left half is factorised, the right one updated, then factorised.
+#ifndef DPE_ENGINE_LINEAR_SUPERNODAL_LU_H_
+#define DPE_ENGINE_LINEAR_SUPERNODAL_LU_H_
+
+#include <memory>
+#include <vector>
+
+#include "linear/supernodal_solve.h"
+#include "linear/supernodal_structure.h"
+
+namespace dpe {
+
+class SupernodalLu {
+ public:
+  // @param structure  shared by all factorisations of one pattern
+  explicit SupernodalLu(std::shared_ptr<const SupernodalStructure> structure);
+
+  // Factorises the matrix whose values, in pattern order, are given.
+  //
+  // @param work  resized as needed; may be shared by factorisations that take turns
+  // @return      false if a pivot is zero or not finite
+  bool Factorize(const double* values, std::vector<double>* work);
+
+  // For SolveSupernodal; valid until the next factorisation.
+  SupernodalFactor factor() const;
+
+  size_t num_bytes() const { return (lower_.size() + upper_.size()) * sizeof(double); }
+
+ private:
+  void Assemble(int s, const double* values);
+  void AddToPanels(int child, int s, const double* remainder);
+  void MakeRemainder(int s, double* work);
+  bool FactorizeColumns(int s, int begin, int end);
+  bool FactorizePanel(int s, int begin, int end);
+
+  std::shared_ptr<const SupernodalStructure> structure_;
+  std::vector<double> lower_, upper_;  // panels of L and U^T
+};
+
+}  // namespace dpe
+
+#endif  // DPE_ENGINE_LINEAR_SUPERNODAL_LU_H_
