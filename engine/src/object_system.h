@@ -35,6 +35,8 @@ class ObjectSystem {
   const std::vector<int>& free_vertices() const { return free_vertices_; }
   const std::vector<int>& node_of_vertex() const { return node_of_vertex_; }
   const BlockPattern& pattern() const { return pattern_; }
+  // Where the diagonal block of each node is.
+  const std::vector<BlockSlot>& diagonal() const { return diagonal_; }
   // A solver for passing use; one that a rollout keeps comes from NewSolver.
   StepSolver* solver() { return solver_.get(); }
   std::unique_ptr<StepSolver> NewSolver() const {

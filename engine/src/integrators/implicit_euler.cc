@@ -9,6 +9,7 @@ ForceState ImplicitEuler::ExpansionPoint(const ObjectSystem& /*system*/,
 
 StepOutcome ImplicitEuler::Step(ObjectSystem* system, StepSolver* solver,
                                 const StepStates& states, const StepResult& result) {
+  solver->Reset();
   momentum_.assign(system->num_coordinates(), 0.0);
   for (int i : system->free_vertices()) {
     for (int c = 3 * i; c < 3 * i + 3; ++c) {

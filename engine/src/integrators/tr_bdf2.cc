@@ -28,6 +28,7 @@ StepOutcome TrBdf2::Step(ObjectSystem* system, StepSolver* solver,
   const int n = system->num_coordinates();
   const double c = kHalfGamma * states.h;
   const Eigen::VectorXd& mass = system->parameters().mass;
+  solver->Reset();  // both stages have nearly the same matrix and share a factorisation
   force_.resize(n);
   x_in_.resize(n);
   momentum_.assign(n, 0.0);

@@ -11,6 +11,9 @@ namespace dpe {
 namespace {
 
 constexpr int kMaxCycles = 4;
+// With the factorisation of an earlier matrix so many iterations cost about as much as
+// a new factorisation, which is then the better way.
+constexpr int kMaxKeptIterations = 12;
 // The relative residual that counts as rounding level, and the one that is still
 // accepted when the iteration can get no further.
 constexpr double kTarget = 1e-13;
@@ -38,6 +41,7 @@ DirectSolver::DirectSolver(std::shared_ptr<DirectSolverContext> context)
 
 bool DirectSolver::Factorize(const std::vector<double>& values, bool symmetric) {
   is_exact_ = true;
+  symmetric_ = symmetric;
   kind_ = Kind::kNone;
   if (symmetric) {
     if (!cholesky_) cholesky_ = std::make_unique<Cholesky>(context_->analysis());
@@ -70,22 +74,27 @@ SupernodalFactor DirectSolver::factor() const {
 }
 
 bool DirectSolver::Solve(const std::vector<double>& values, const double* b, double* z,
-                         bool transposed) {
+                         bool transposed, double accuracy) {
   const int n = pattern_.num_rows();
   if (kind_ == Kind::kPivotedLu) return SolveWithPivots(values, b, z, transposed);
-  std::copy_n(b, n, context_->right.data());  // b and z may be the same array
+  if (b != context_->right.data()) {  // b and z may be the same array
+    std::copy_n(b, n, context_->right.data());
+  }
   if (kind_ == Kind::kCholesky && is_exact_) {
     if (b != z) std::copy_n(b, n, z);
     SolveSupernodal(factor(), &context_->solve_work, z);
     return ConstVector(z, n).allFinite();
   }
-  if (SolveByFactor(values, z, transposed)) return true;
+  if (SolveByFactor(values, z, transposed, accuracy)) return true;
+  if (!is_exact_ && Factorize(values, symmetric_)) {
+    return Solve(values, context_->right.data(), z, transposed, accuracy);
+  }
   return FactorizeWithPivots(values) &&
          SolveWithPivots(values, context_->right.data(), z, transposed);
 }
 
 bool DirectSolver::SolveByFactor(const std::vector<double>& values, double* z,
-                                 bool transposed) {
+                                 bool transposed, double accuracy) {
   const int n = pattern_.num_rows();
   const ConstVector right(context_->right.data(), n);
   Vector residual(context_->residual.data(), n);
@@ -102,23 +111,25 @@ bool DirectSolver::SolveByFactor(const std::vector<double>& values, double* z,
   Vector(z, n).setZero();
   if (scale == 0.0) return true;
   precondition(right.data(), z);
+  const double target = std::max(accuracy, kTarget) * scale;
+  const int iterations = is_exact_ ? kMaxGmresIterations : kMaxKeptIterations;
   double norm = scale;
   for (int cycle = 0;; ++cycle) {
     multiply(z, residual.data());
     residual = right - residual;
     const double previous = norm;
     norm = residual.norm();
-    if (norm <= kTarget * scale) return true;
+    if (norm <= target) return true;
     // When a cycle gains little, rounding level is reached; the first solve gains
     // little where it is that of another matrix.
-    if (cycle == kMaxCycles || !std::isfinite(norm)) break;
+    if (cycle == (is_exact_ ? kMaxCycles : 1) || !std::isfinite(norm)) break;
     if (cycle > 0 && !(norm < 0.3 * previous)) break;
-    if (!GmresCycle(n, residual.data(), norm, kTarget * scale, multiply, precondition,
-                    &context_->basis, z)) {
+    if (!GmresCycle(n, residual.data(), norm, target, iterations, multiply,
+                    precondition, &context_->basis, z)) {
       break;
     }
   }
-  return norm <= kAccept * scale;
+  return norm <= std::max(accuracy, kAccept) * scale;
 }
 
 SupernodalFactor DirectSolver::ExactFactor(const std::vector<double>& values) {

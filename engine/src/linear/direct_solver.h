@@ -7,7 +7,8 @@
 //      (supernodal_lu.h), which costs twice as much and is exact for A and A^T alike;
 //   3. every solve checks its residual. Where pivoting would have been needed, or where
 //      the factorisation is that of a nearby matrix (KeepFactorization), GMRES with the
-//      factorisation as preconditioner brings it down to rounding level;
+//      factorisation as preconditioner brings it down to rounding level; where the
+//      nearby matrix turns out not to be near, A is factorised anew;
 //   4. if that fails, A is factorised by sparse LU with partial pivoting
 //      (Eigen::SparseLU), many times slower.
 // Each way gives the solution of the same exact system, so derivative passes are exact.
@@ -58,9 +59,11 @@ class DirectSolver {
   bool KeepFactorization(const std::vector<double>& values);
 
   // z = A^{-1} b, or A^{-T} b if `transposed`; b and z may be the same array. `values`
-  // are those of A. False if that cannot be solved to rounding level.
+  // are those of A. False if that cannot be solved.
+  //
+  // @param accuracy  the relative residual that is enough; 0: rounding level
   bool Solve(const std::vector<double>& values, const double* b, double* z,
-             bool transposed);
+             bool transposed, double accuracy = 0.0);
 
   // The factors of A, for many right-hand sides at once; they hold no values if A
   // itself was not factorised, or not accurately enough to do without iteration.
@@ -74,7 +77,8 @@ class DirectSolver {
                 bool transposed) const;
   SupernodalFactor factor() const;
   // z with a residual as small as it gets; false if it is not small enough.
-  bool SolveByFactor(const std::vector<double>& values, double* z, bool transposed);
+  bool SolveByFactor(const std::vector<double>& values, double* z, bool transposed,
+                     double accuracy);
   bool FactorizeWithPivots(const std::vector<double>& values);
   bool SolveWithPivots(const std::vector<double>& values, const double* b, double* z,
                        bool transposed);
@@ -83,6 +87,7 @@ class DirectSolver {
   const BlockPattern& pattern_;
   Kind kind_ = Kind::kNone;
   bool is_exact_ = true;  // the factorisation is that of the current matrix
+  bool symmetric_ = true;
   std::unique_ptr<Cholesky> cholesky_;
   std::unique_ptr<SupernodalLu> lu_;
   std::unique_ptr<PivotedLu> pivoted_lu_;

@@ -11,21 +11,23 @@
 
 namespace dpe {
 
-constexpr int kGmresIterations = 30;
+constexpr int kMaxGmresIterations = 30;
 
 // @param residual      r = b - A z
 // @param norm          its norm, > 0
 // @param target        the norm of the residual at which to stop
+// @param iterations    at most so many, up to kMaxGmresIterations
 // @param multiply      multiply(x, y): y := A x
 // @param precondition  precondition(x, y): y := P^{-1} x
 // @param basis         workspace, resized as needed
 // @return false if not one iteration was possible
 template <class Multiply, class Precondition>
 bool GmresCycle(int n, const double* residual, double norm, double target,
-                const Multiply& multiply, const Precondition& precondition,
-                std::vector<double>* basis, double* z) {
+                int iterations, const Multiply& multiply,
+                const Precondition& precondition, std::vector<double>* basis,
+                double* z) {
   using Vector = Eigen::Map<Eigen::VectorXd>;
-  constexpr int kMax = kGmresIterations;
+  constexpr int kMax = kMaxGmresIterations;
   basis->resize(static_cast<size_t>(2 * kMax + 1) * n);
   double hessenberg[kMax + 1][kMax];
   double cosine[kMax], sine[kMax], g[kMax + 1];
@@ -36,7 +38,7 @@ bool GmresCycle(int n, const double* residual, double norm, double target,
   column(0) = Eigen::Map<const Eigen::VectorXd>(residual, n) / norm;
   g[0] = norm;
   int used = 0;
-  for (int j = 0; j < kMax; ++j) {
+  for (int j = 0; j < iterations; ++j) {
     precondition(column(j).data(), preconditioned(j).data());
     multiply(preconditioned(j).data(), column(j + 1).data());
     for (int i = 0; i <= j; ++i) {

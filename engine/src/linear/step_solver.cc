@@ -51,10 +51,10 @@ bool StepSolver::KeepFactorization() {
   return direct_.KeepFactorization(values_);
 }
 
-bool StepSolver::Solve(const double* b, double* z, bool transposed,
-                       const double* guess) {
+bool StepSolver::Solve(const double* b, double* z, bool transposed, const double* guess,
+                       double accuracy) {
   const ScopedTimer timer(context_->timings, TimedPart::kSolve);
-  if (!iterative_) return direct_.Solve(values_, b, z, transposed);
+  if (!iterative_) return direct_.Solve(values_, b, z, transposed, accuracy);
   if (SolveByKrylov(b, z, transposed, guess)) return true;
   iterative_ = false;
   return direct_.Factorize(values_, symmetric_) &&

@@ -67,9 +67,12 @@ class StepSolver {
   // z = A^{-1} b, or A^{-T} b if `transposed`; b and z may be the same array. False if
   // that cannot be solved to rounding level (to the tolerance, by the Krylov method).
   //
-  // @param guess  if not null, where a Krylov method starts from
-  bool Solve(const double* b, double* z, bool transposed,
-             const double* guess = nullptr);
+  // @param guess     if not null, where a Krylov method starts from
+  // @param accuracy  the relative residual that is enough for the direct way; 0:
+  // rounding
+  //                  level
+  bool Solve(const double* b, double* z, bool transposed, const double* guess = nullptr,
+             double accuracy = 0.0);
 
   // The factors of A for many right-hand sides, after Factorize; without values if
   // there are none that are exact (see DirectSolver).
