@@ -101,6 +101,36 @@ TEST(StepSolverTest, AnEarlierFactorizationServesANearbyMatrix) {
   }
 }
 
+TEST(StepSolverTest, AFactorPutAsideServesItsMatrixAndNearbyOnes) {
+  const BlockPattern pattern = RingPattern(kNodes);
+  const auto context = std::make_shared<StepSolverContext>(pattern);
+  StepSolver solver(context);
+  const Eigen::VectorXd b = RandomVector(pattern.num_rows(), 1);
+  KeptFactor kept;
+  solver.StoreFactor(&kept);
+  EXPECT_TRUE(kept.empty());
+  for (const double skew : {0.0, 0.3}) {  // by Cholesky, and by LU
+    Fill(pattern, skew, 20.0, &solver.values());
+    ASSERT_TRUE(solver.Factorize(skew == 0.0));
+    solver.StoreFactor(&kept);
+    ASSERT_FALSE(kept.empty());
+    Fill(pattern, 0.2, 30.0, &solver.values());  // something else in between
+    ASSERT_TRUE(solver.Factorize(false));
+    for (const double change : {0.0, 0.1, 1000.0}) {  // the last is not nearby
+      Fill(pattern, skew, 20.0 + change, &solver.values());
+      solver.UseFactor(&kept, skew == 0.0);
+      ASSERT_TRUE(solver.KeepFactorization());
+      const Eigen::MatrixXd a = Dense(pattern, solver.values());
+      for (const bool transposed : {false, true}) {
+        const Eigen::MatrixXd op = transposed ? Eigen::MatrixXd(a.transpose()) : a;
+        Eigen::VectorXd z(b.size());
+        ASSERT_TRUE(solver.Solve(b.data(), z.data(), transposed));
+        EXPECT_LT((op * z - b).norm(), 1e-12 * b.norm());
+      }
+    }
+  }
+}
+
 class IterativeSolverTest : public testing::TestWithParam<double> {};
 
 TEST_P(IterativeSolverTest, ReachesTheToleranceThatIsAskedFor) {

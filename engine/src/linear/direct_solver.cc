@@ -73,6 +73,32 @@ SupernodalFactor DirectSolver::factor() const {
   return kind_ == Kind::kCholesky ? cholesky_->factor() : lu_->factor();
 }
 
+void DirectSolver::StoreFactor(KeptFactor* kept) const {
+  if (kind_ == Kind::kCholesky || kind_ == Kind::kLu) {
+    kept->Store(context_->analysis()->structure(), factor());
+  } else {
+    kept->Clear();
+  }
+}
+
+void DirectSolver::UseFactor(const KeptFactor* kept, bool symmetric) {
+  kept_ = kept;
+  kind_ = Kind::kKept;
+  is_exact_ = false;
+  symmetric_ = symmetric;
+}
+
+void DirectSolver::Precondition(const double* x, double* y, bool transposed) {
+  std::copy_n(x, pattern_.num_rows(), y);
+  if (kind_ == Kind::kKept) {
+    const SingleFactor f = kept_->factor();
+    SolveSupernodal(transposed ? f.Transposed() : f, &context_->solve_work, y);
+  } else {
+    const SupernodalFactor f = factor();
+    SolveSupernodal(transposed ? f.Transposed() : f, &context_->solve_work, y);
+  }
+}
+
 bool DirectSolver::Solve(const std::vector<double>& values, const double* b, double* z,
                          bool transposed, double accuracy) {
   const int n = pattern_.num_rows();
@@ -98,10 +124,8 @@ bool DirectSolver::SolveByFactor(const std::vector<double>& values, double* z,
   const int n = pattern_.num_rows();
   const ConstVector right(context_->right.data(), n);
   Vector residual(context_->residual.data(), n);
-  const SupernodalFactor lu = transposed ? factor().Transposed() : factor();
   const auto precondition = [&](const double* x, double* y) {
-    std::copy_n(x, n, y);
-    SolveSupernodal(lu, &context_->solve_work, y);
+    Precondition(x, y, transposed);
   };
   const auto multiply = [&](const double* x, double* y) {
     Multiply(values, x, y, transposed);

@@ -22,6 +22,7 @@
 
 #include "linear/block_pattern.h"
 #include "linear/cholesky.h"
+#include "linear/kept_factor.h"
 #include "linear/supernodal_lu.h"
 
 namespace dpe {
@@ -65,17 +66,25 @@ class DirectSolver {
   bool Solve(const std::vector<double>& values, const double* b, double* z,
              bool transposed, double accuracy = 0.0);
 
+  // Copies the factorisation into `kept`, or clears that if there is none to copy.
+  void StoreFactor(KeptFactor* kept) const;
+  // Goes on with such a copy, of the matrix at hand or a nearby one; it must stay as it
+  // is while it is used.
+  void UseFactor(const KeptFactor* kept, bool symmetric);
+
   // The factors of A, for many right-hand sides at once; they hold no values if A
   // itself was not factorised, or not accurately enough to do without iteration.
   SupernodalFactor ExactFactor(const std::vector<double>& values);
 
  private:
   using PivotedLu = Eigen::SparseLU<Eigen::SparseMatrix<double>>;
-  enum class Kind { kNone, kCholesky, kLu, kPivotedLu };
+  enum class Kind { kNone, kCholesky, kLu, kKept, kPivotedLu };
 
   void Multiply(const std::vector<double>& values, const double* x, double* y,
                 bool transposed) const;
   SupernodalFactor factor() const;
+  // y := P^{-1} x (P^{-T} x) with the factorisation P.
+  void Precondition(const double* x, double* y, bool transposed);
   // z with a residual as small as it gets; false if it is not small enough.
   bool SolveByFactor(const std::vector<double>& values, double* z, bool transposed,
                      double accuracy);
@@ -90,6 +99,7 @@ class DirectSolver {
   bool symmetric_ = true;
   std::unique_ptr<Cholesky> cholesky_;
   std::unique_ptr<SupernodalLu> lu_;
+  const KeptFactor* kept_ = nullptr;
   std::unique_ptr<PivotedLu> pivoted_lu_;
 };
 

@@ -51,6 +51,21 @@ bool StepSolver::KeepFactorization() {
   return direct_.KeepFactorization(values_);
 }
 
+void StepSolver::StoreFactor(KeptFactor* kept) const {
+  if (iterative_ || !factorized_) {
+    kept->Clear();
+  } else {
+    direct_.StoreFactor(kept);
+  }
+}
+
+void StepSolver::UseFactor(const KeptFactor* kept, bool symmetric) {
+  iterative_ = false;
+  symmetric_ = symmetric;
+  factorized_ = !kept->empty();
+  if (factorized_) direct_.UseFactor(kept, symmetric);
+}
+
 bool StepSolver::Solve(const double* b, double* z, bool transposed, const double* guess,
                        double accuracy) {
   const ScopedTimer timer(context_->timings, TimedPart::kSolve);

@@ -64,6 +64,14 @@ class StepSolver {
   // False if the matrix cannot be factorised.
   bool KeepFactorization();
 
+  // Copies the factorisation into `kept`; clears that where there is none worth keeping
+  // (the Krylov method's is made anew in no time).
+  void StoreFactor(KeptFactor* kept) const;
+  // Takes such a copy for the factorisation of an earlier, nearby matrix, or of the
+  // same: KeepFactorization goes on with it. An empty one is no factorisation. `kept`
+  // must stay as it is while it is used.
+  void UseFactor(const KeptFactor* kept, bool symmetric);
+
   // z = A^{-1} b, or A^{-T} b if `transposed`; b and z may be the same array. False if
   // that cannot be solved to rounding level (to the tolerance, by the Krylov method).
   //

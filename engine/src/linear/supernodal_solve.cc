@@ -11,11 +11,12 @@ constexpr int kWidth = 4;  // columns that a sweep over the rows takes along
 
 // t := the solution with the dense columns of one supernode: t[0, columns) is solved
 // with the triangle, the rows below are lowered by its product.
-DPE_VECTORIZE
-void ForwardDense(const double* values, int rows, int columns, double* __restrict t) {
+template <class Real>
+DPE_ALWAYS_INLINE void Forward(const Real* values, int rows, int columns,
+                               double* __restrict t) {
   for (int j = 0; j < columns; j += kWidth) {
     const int width = std::min(kWidth, columns - j);
-    const double* l[kWidth];
+    const Real* l[kWidth];
     double x[kWidth] = {};
     for (int k = 0; k < kWidth; ++k) {
       l[k] = values + static_cast<long>(j + std::min(k, width - 1)) * rows;
@@ -33,12 +34,13 @@ void ForwardDense(const double* values, int rows, int columns, double* __restric
 }
 
 // The same with the transposed columns: t[0, columns) is solved, given the rows below.
-DPE_VECTORIZE
-void BackwardDense(const double* values, int rows, int columns, double* __restrict t) {
+template <class Real>
+DPE_ALWAYS_INLINE void Backward(const Real* values, int rows, int columns,
+                                double* __restrict t) {
   for (int end = columns; end > 0; end -= std::min(kWidth, end)) {
     const int width = std::min(kWidth, end);
     const int j = end - width;
-    const double* l[kWidth];
+    const Real* l[kWidth];
     for (int k = 0; k < kWidth; ++k) {
       l[k] = values + static_cast<long>(j + std::min(k, width - 1)) * rows;
     }
@@ -59,10 +61,25 @@ void BackwardDense(const double* values, int rows, int columns, double* __restri
   }
 }
 
-}  // namespace
+DPE_VECTORIZE
+void ForwardDense(const double* values, int rows, int columns, double* __restrict t) {
+  Forward(values, rows, columns, t);
+}
+DPE_VECTORIZE
+void ForwardDense(const float* values, int rows, int columns, double* __restrict t) {
+  Forward(values, rows, columns, t);
+}
+DPE_VECTORIZE
+void BackwardDense(const double* values, int rows, int columns, double* __restrict t) {
+  Backward(values, rows, columns, t);
+}
+DPE_VECTORIZE
+void BackwardDense(const float* values, int rows, int columns, double* __restrict t) {
+  Backward(values, rows, columns, t);
+}
 
-void SolveSupernodal(const SupernodalFactor& factor, std::vector<double>* work,
-                     double* x) {
+template <class Real>
+void Solve(const SupernodalPanels<Real>& factor, std::vector<double>* work, double* x) {
   for (int s = 0; s < factor.num_supernodes; ++s) {
     const int first = factor.first_column[s];
     const int columns = factor.first_column[s + 1] - first;
@@ -88,6 +105,17 @@ void SolveSupernodal(const SupernodalFactor& factor, std::vector<double>* work,
     BackwardDense(factor.upper + factor.value_start[s], rows, columns, t);
     std::copy_n(t, columns, x + first);
   }
+}
+
+}  // namespace
+
+void SolveSupernodal(const SupernodalFactor& factor, std::vector<double>* work,
+                     double* x) {
+  Solve(factor, work, x);
+}
+
+void SolveSupernodal(const SingleFactor& factor, std::vector<double>* work, double* x) {
+  Solve(factor, work, x);
 }
 
 }  // namespace dpe

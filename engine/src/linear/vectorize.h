@@ -14,4 +14,11 @@
 #define DPE_VECTORIZE
 #endif
 
+// For the body of such functions where several share one: it is compiled anew in each.
+#if defined(__GNUC__)
+#define DPE_ALWAYS_INLINE inline __attribute__((always_inline))
+#else
+#define DPE_ALWAYS_INLINE inline
+#endif
+
 #endif  // DPE_ENGINE_LINEAR_VECTORIZE_H_
