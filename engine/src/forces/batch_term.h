@@ -7,8 +7,8 @@
 // and
 //   using Batch = ElementBatch<kCoords, number of constants>;
 //   const std::vector<std::array<int, kVertices>>& elements() const;
-//   void GatherConstant(int e, int lane, Batch*) const;
-//   bool UsesVelocity() const;     // false: g(q, u) does not depend on u, at the
+//   void GatherConstants(int first, Batch*) const;  // of elements first, first + 1,
+//   ... bool UsesVelocity() const;     // false: g(q, u) does not depend on u, at the
 //                                  // current parameters
 //   void Values(const Batch&, LoopFlags, VectorLanes* phi) const;
 //   // The block of vertices i and j of cx dphi/dx + cv dphi/dv is
@@ -49,9 +49,10 @@ class BatchTerm final : public ForceTerm {
       for (int j = 0; j < kVertices; ++j) rows[j] = 3 * vertices[j];
       rows_.push_back(rows);
     }
+    PadToBatches(&rows_);
   }
 
-  int num_elements() const { return static_cast<int>(rows_.size()); }
+  int num_elements() const { return static_cast<int>(law_.elements().size()); }
 
   void AppendCouplings(std::vector<std::pair<int, int>>* pairs) const override {
     for (const auto& vertices : law_.elements()) {
@@ -176,36 +177,26 @@ class BatchTerm final : public ForceTerm {
   int CountFrom(int first) const { return std::min(kBatch, num_elements() - first); }
 
   void Gather(const ForceState& state, int first, LoopFlags flags, Batch* batch) const {
-    for (int i = 0; i < kBatch; ++i) {
-      law_.GatherConstant(std::min(first + i, num_elements() - 1), i, batch);
-    }
-    GatherPositions(state.x, first, batch->q);
-    if (flags.velocity) GatherWeighted(Law::kVelocity, state.v, first, &batch->u);
-    if (!flags.direction) return;
-    GatherPositions(state.dx, first, batch->dq);
-    if (flags.velocity) GatherWeighted(Law::kVelocity, state.dv, first, &batch->du);
-  }
-
-  void GatherPositions(const double* x, int first, VectorLanes* q) const {
-    for (int m = 0; m < kCoords; ++m) {
-      GatherWeighted(Law::kPosition[m], x, first, &q[m]);
-    }
+    law_.GatherConstants(first, batch);
+    const auto* rows = rows_.data() + first;
+    WithFlags(flags, [&](auto direction, auto velocity) DPE_INLINE_LAMBDA {
+      for (int i = 0; i < kBatch; ++i) {
+        for (int m = 0; m < kCoords; ++m) {
+          batch->q[m].Set(i, WeightedSum(Law::kPosition[m], state.x, rows[i]));
+          if constexpr (!direction) continue;
+          batch->dq[m].Set(i, WeightedSum(Law::kPosition[m], state.dx, rows[i]));
+        }
+        if constexpr (!velocity) continue;
+        batch->u.Set(i, WeightedSum(Law::kVelocity, state.v, rows[i]));
+        if constexpr (!direction) continue;
+        batch->du.Set(i, WeightedSum(Law::kVelocity, state.dv, rows[i]));
+      }
+    });
   }
 
   void GatherAdjoint(const double* lambda, double c, int first, Batch* batch) const {
-    GatherWeighted(Law::kForce, lambda, first, &batch->s);
-    for (double* component : {batch->s.x, batch->s.y, batch->s.z}) {
-      for (int i = 0; i < kBatch; ++i) component[i] *= c;
-    }
-  }
-
-  // out := sum_j weights[j] x_j.
-  DPE_ALWAYS_INLINE void GatherWeighted(const double (&weights)[kVertices],
-                                        const double* x, int first,
-                                        VectorLanes* out) const {
-    const int last = num_elements() - 1;
     for (int i = 0; i < kBatch; ++i) {
-      out->Set(i, WeightedSum(weights, x, rows_[std::min(first + i, last)]));
+      batch->s.Set(i, c * WeightedSum(Law::kForce, lambda, rows_[first + i]));
     }
   }
 
@@ -236,7 +227,7 @@ class BatchTerm final : public ForceTerm {
   }
 
   Law law_;
-  std::vector<std::array<int, kVertices>> rows_;  // 3 * vertex
+  std::vector<std::array<int, kVertices>> rows_;  // 3 * vertex; whole batches
   std::vector<BlockSlot> slots_;                  // by element, column, row
 };
 

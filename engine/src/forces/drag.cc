@@ -10,13 +10,15 @@ namespace {
 
 using Air = DragLaw::Air;
 
+constexpr double kThird = 1.0 / 3.0;
+
 // The quantities of the header's equations, of one triangle. Without a direction dn,
 // dw, r and dq are zero and unset.
 template <bool kDirection>
 struct Triangle {
   DPE_ALWAYS_INLINE Triangle(const DragLaw::Batch& batch, int lane, const Air& air)
       : e1(batch.q[0].Get(lane)), e2(batch.q[1].Get(lane)), n(Cross(e1, e2)) {
-    w = air.wind - batch.u.Get(lane);
+    w = air.wind - kThird * batch.u.Get(lane);
     // No branches: a collapsed triangle computes with some m, and p = 0 discards it.
     const double n_squared = Dot(n, n);
     const double m2 = n_squared > DBL_MIN ? n_squared : DBL_MIN;
@@ -30,7 +32,7 @@ struct Triangle {
       de1 = batch.dq[0].Get(lane);
       de2 = batch.dq[1].Get(lane);
       dn = Cross(de1, e2) + Cross(e1, de2);
-      dw = -1.0 * batch.du.Get(lane);
+      dw = -kThird * batch.du.Get(lane);
       r = t * Dot(n, dn);
       dq = Dot(dn, w) + Dot(n, dw);
       zeta += dq + r * q;
@@ -111,8 +113,8 @@ void ValueLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air,
             });
 }
 
-// With F1 = cx dphi/de1, F2 = cx dphi/de2 and W = cv dphi/d(velocity) = -cv dphi/dw,
-// the columns of the vertices are W / 3 - F1 - F2, W / 3 + F1 and W / 3 + F2.
+// With F1 = cx dphi/de1, F2 = cx dphi/de2 and W = cv dphi/du = -(cv / 3) dphi/dw, the
+// columns of the vertices are W - F1 - F2, W + F1 and W + F2.
 DPE_VECTORIZE
 void MatrixLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air,
                 JacobianFactors factors, MatrixLanes* __restrict out) {
@@ -125,7 +127,7 @@ void MatrixLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air
       const auto f1 = OfEdge(triangle, b, g, triangle.e2, triangle.de2);
       const auto f2 = OfEdge(triangle, b, g, triangle.e1, triangle.de1);
       const double cx = factors.cx * triangle.power;
-      const double cv = factors.cv * triangle.power * (-1.0 / 3.0);
+      const double cv = -kThird * factors.cv * triangle.power;
       const Vec3 bw = cv * triangle.ExpandVelocity(factors.plain);
       const Vec3 gw = cv * triangle.n;
       const Vec3 c1 = -cx * f1.c, b1 = -cx * f1.b, g1 = -cx * f1.g;
@@ -153,7 +155,7 @@ void AdjointLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air ai
                 out->q[1].Set(i, TransposeTimes(triangle, f2, s));
                 Vec3 u = Dot(triangle.n, s) * triangle.ExpandVelocity(plain);
                 if constexpr (direction) u = u + Dot(triangle.dn, s) * triangle.n;
-                out->u.Set(i, -1.0 * u);
+                out->u.Set(i, -kThird * u);
               }
             });
 }

@@ -19,6 +19,9 @@
 //   dphi/de1 = -p ([c2]x + n b2^T + dn g2^T),  dphi/de2 = p ([c1]x + n b1^T + dn g1^T),
 //   ci = zeta ei + q dei,  bi = b x ei + g x dei,  gi = g x ei.
 //
+// The reduced velocity u of element_term.h is the sum v_a + v_b + v_c, w = wind - u
+// / 3.
+//
 // A collapsed triangle (n = 0) catches no air: its force counts as zero around it.
 #ifndef DPE_ENGINE_FORCES_DRAG_H_
 #define DPE_ENGINE_FORCES_DRAG_H_
@@ -36,7 +39,7 @@ class DragLaw {
   static constexpr int kVertices = 3;
   static constexpr int kCoords = 2;
   static constexpr double kPosition[2][3] = {{-1.0, 1.0, 0.0}, {-1.0, 0.0, 1.0}};
-  static constexpr double kVelocity[3] = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+  static constexpr double kVelocity[3] = {1.0, 1.0, 1.0};
   static constexpr double kForce[3] = {1.0, 1.0, 1.0};
   static constexpr int kMatrices = 3;
   static constexpr int kMatrixOf[3] = {0, 1, 2};
@@ -58,7 +61,7 @@ class DragLaw {
   bool IsSymmetric() const { return parameters_->drag_coefficient == 0.0; }
   int ParameterElement(int p, int /*e*/) const { return p == 0 ? 0 : p - 1; }
 
-  void GatherConstant(int /*e*/, int /*lane*/, Batch* /*batch*/) const {}
+  void GatherConstants(int /*first*/, Batch* /*batch*/) const {}
   void Values(const Batch& batch, LoopFlags flags, VectorLanes* phi) const;
   void Matrices(const Batch& batch, LoopFlags flags, JacobianFactors factors,
                 MatrixLanes* matrices) const;

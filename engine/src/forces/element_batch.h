@@ -7,6 +7,7 @@
 #define DPE_ENGINE_FORCES_ELEMENT_BATCH_H_
 
 #include <type_traits>
+#include <vector>
 
 #include "forces/vec3.h"
 
@@ -67,6 +68,14 @@ struct LoopFlags {
   bool direction;  // dq and du are given; otherwise they count as zero
   bool velocity;   // u and du are given; otherwise nothing depends on them
 };
+
+// Repeats the last of the elements' values until they fill whole batches.
+template <class T>
+void PadToBatches(std::vector<T>* values) {
+  if (values->empty()) return;
+  const T last = values->back();
+  values->resize((values->size() + kBatch - 1) / kBatch * kBatch, last);
+}
 
 // Calls loop(direction, velocity) with the flags as types, so that each combination is
 // compiled on its own.

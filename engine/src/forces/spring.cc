@@ -172,6 +172,8 @@ SpringLaw::SpringLaw(const ClothObject& object, const ObjectParameters* paramete
         (object.positions.segment<3>(3 * a) - object.positions.segment<3>(3 * b))
             .norm());
   }
+  PadToBatches(&springs_);
+  PadToBatches(&rest_lengths_);
 }
 
 void SpringLaw::Values(const Batch& batch, LoopFlags flags, VectorLanes* phi) const {

@@ -55,9 +55,11 @@ class SpringLaw {
   bool IsSymmetric() const { return parameters_->damping == 0.0; }
   int ParameterElement(int p, int e) const { return p == 0 ? springs_[e] : 0; }
 
-  void GatherConstant(int e, int lane, Batch* batch) const {
-    batch->constants[0].at[lane] = parameters_->stiffness[springs_[e]];
-    batch->constants[1].at[lane] = rest_lengths_[e];
+  void GatherConstants(int first, Batch* batch) const {
+    for (int i = 0; i < kBatch; ++i) {
+      batch->constants[0].at[i] = parameters_->stiffness[springs_[first + i]];
+      batch->constants[1].at[i] = rest_lengths_[first + i];
+    }
   }
   void Values(const Batch& batch, LoopFlags flags, VectorLanes* phi) const;
   void Matrices(const Batch& batch, LoopFlags flags, JacobianFactors factors,
@@ -70,7 +72,7 @@ class SpringLaw {
   double Beta() const { return 0.5 * parameters_->damping; }
 
   std::vector<std::array<int, 2>> elements_;
-  std::vector<int> springs_;  // index into the object's springs
+  std::vector<int> springs_;  // index into the object's springs; whole batches
   std::vector<double> rest_lengths_;
   const ObjectParameters* parameters_;
 };
