@@ -69,17 +69,18 @@ void ObjectSystem::BuildPattern() {
 
 // The registration of force laws: a term exists only where the scene asks for it.
 void ObjectSystem::AddForceTerms(const Scene& scene, const ClothObject& cloth) {
-  const auto add = [this](auto kernel) {
-    if (kernel.elements.empty()) return;
-    terms_.push_back(
-        std::make_unique<ElementTerm<decltype(kernel)>>(std::move(kernel)));
+  const auto add = [this](auto term) {
+    if (term.num_elements() == 0) return;
+    terms_.push_back(std::make_unique<decltype(term)>(std::move(term)));
   };
-  add(GravityKernel(cloth, scene.gravity, &parameters_));
-  add(SpringKernel(cloth, &parameters_));
+  add(GravityTerm(GravityKernel(cloth, scene.gravity, &parameters_)));
+  add(SpringTerm(SpringLaw(cloth, &parameters_)));
   if (cloth.drag_coefficient != 0.0 || cloth.estimate_drag) {
-    add(DragKernel(cloth, scene.aerodynamics, &parameters_));
+    add(DragTerm(DragLaw(cloth, scene.aerodynamics, &parameters_)));
   }
-  for (const Collider& collider : scene.colliders) add(ColliderKernel(cloth, collider));
+  for (const Collider& collider : scene.colliders) {
+    add(ColliderTerm(ColliderKernel(cloth, collider)));
+  }
 }
 
 void ObjectSystem::SetParameters(const Scene& scene) {

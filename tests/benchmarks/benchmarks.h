@@ -7,6 +7,7 @@
 
 namespace dpe::bench {
 
+void RegisterForces();
 void RegisterForward();
 void RegisterGradient();
 void RegisterJacobian();

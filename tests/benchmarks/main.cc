@@ -6,6 +6,7 @@
 #include "benchmarks.h"
 
 int main(int argc, char** argv) {
+  dpe::bench::RegisterForces();
   dpe::bench::RegisterForward();
   dpe::bench::RegisterGradient();
   dpe::bench::RegisterJacobian();

@@ -1,97 +1,226 @@
 #include "forces/drag.h"
 
-#include <Eigen/Geometry>
+#include <cfloat>
 #include <cmath>
+
+#include "linear/vectorize.h"
 
 namespace dpe {
 namespace {
 
-Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& a) {
-  Eigen::Matrix3d m;
-  m << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+using Air = DragLaw::Air;
+
+constexpr double kThird = 1.0 / 3.0;
+
+// The quantities of the header's equations, of one triangle. Without a direction dn,
+// dw, r and dq are zero and unset.
+template <bool kDirection>
+struct Triangle {
+  DPE_ALWAYS_INLINE Triangle(const DragLaw::Batch& batch, int lane, const Air& air)
+      : e1(batch.q[0].Get(lane)), e2(batch.q[1].Get(lane)), n(Cross(e1, e2)) {
+    w = air.wind - kThird * batch.u.Get(lane);
+    // No branches: a collapsed triangle computes with some m, and p = 0 discards it.
+    const double n_squared = Dot(n, n);
+    const double m2 = n_squared > DBL_MIN ? n_squared : DBL_MIN;
+    const double inverse_m2 = 1.0 / m2;
+    power = std::sqrt(m2) * (air.authored + air.unit_normal * inverse_m2);
+    power = m2 > DBL_MIN ? power : 0.0;
+    t = air.sign * inverse_m2;
+    q = Dot(n, w);
+    zeta = q;
+    if constexpr (kDirection) {
+      de1 = batch.dq[0].Get(lane);
+      de2 = batch.dq[1].Get(lane);
+      dn = Cross(de1, e2) + Cross(e1, de2);
+      dw = -kThird * batch.du.Get(lane);
+      r = t * Dot(n, dn);
+      dq = Dot(dn, w) + Dot(n, dw);
+      zeta += dq + r * q;
+    }
+  }
+
+  DPE_ALWAYS_INLINE Vec3 Value() const {
+    if constexpr (kDirection) return power * (zeta * n + q * dn);
+    return (power * zeta) * n;
+  }
+
+  // dphi/dn / p as zeta I + n b^T + dn g^T.
+  DPE_ALWAYS_INLINE void ExpandNormal(const Air& air, Vec3* b, Vec3* g) const {
+    *g = w + (t * q) * n;
+    *b = *g;
+    if constexpr (kDirection) {
+      const double ratio = 1.0 - 2.0 * air.sign;  // (s - 2) / s
+      *b = *b + (t * (ratio * r * q + dq)) * n + (t * q) * dn + r * w + dw;
+    }
+  }
+
+  // dphi/dw / p as n b^T + dn n^T; `plain` is the weight of df/dw.
+  DPE_ALWAYS_INLINE Vec3 ExpandVelocity(double plain) const {
+    if constexpr (kDirection) return (plain + r) * n + dn;
+    return plain * n;
+  }
+
+  Vec3 e1, e2, n, w;
+  double power, t, q, zeta;  // p, t, q, zeta
+  Vec3 de1, de2, dn, dw;
+  double r, dq;
+};
+
+// A matrix [c]x + n b^T + dn g^T.
+struct CrossAndOuter {
+  Vec3 c, b, g;
+};
+
+// dphi/de1 / -p with `e` = e2, or dphi/de2 / p with `e` = e1.
+template <bool kDirection>
+DPE_ALWAYS_INLINE CrossAndOuter OfEdge(const Triangle<kDirection>& triangle, Vec3 b,
+                                       Vec3 g, const Vec3& e, const Vec3& de) {
+  CrossAndOuter out;
+  out.c = triangle.zeta * e;
+  out.b = Cross(b, e);
+  if constexpr (kDirection) {
+    out.c = out.c + triangle.q * de;
+    out.b = out.b + Cross(g, de);
+    out.g = Cross(g, e);
+  }
+  return out;
+}
+
+template <bool kDirection>
+DPE_ALWAYS_INLINE Mat3 Dense(const Triangle<kDirection>& triangle, Vec3 c, Vec3 b,
+                             Vec3 g) {
+  Mat3 m = AddCross(Outer(triangle.n, b), c);
+  if constexpr (kDirection) m = m + Outer(triangle.dn, g);
   return m;
+}
+
+template <bool kDirection>
+DPE_ALWAYS_INLINE Vec3 TransposeTimes(const Triangle<kDirection>& triangle,
+                                      const CrossAndOuter& form, Vec3 s) {
+  Vec3 out = Cross(s, form.c) + Dot(triangle.n, s) * form.b;
+  if constexpr (kDirection) out = out + Dot(triangle.dn, s) * form.g;
+  return out;
+}
+
+DPE_VECTORIZE
+void ValueLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air,
+               VectorLanes* __restrict phi) {
+  WithFlags({flags.direction, true},
+            [&](auto direction, auto /*velocity*/) DPE_INLINE_LAMBDA {
+              for (int i = 0; i < kBatch; ++i) {
+                phi->Set(i, Triangle<direction>(batch, i, air).Value());
+              }
+            });
+}
+
+// With F1 = cx dphi/de1, F2 = cx dphi/de2 and W = cv dphi/du = -(cv / 3) dphi/dw, the
+// columns of the vertices are W - F1 - F2, W + F1 and W + F2.
+DPE_VECTORIZE
+void MatrixLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air,
+                JacobianFactors factors, MatrixLanes* __restrict out) {
+  WithFlags({flags.direction, true}, [&](auto direction,
+                                         auto /*velocity*/) DPE_INLINE_LAMBDA {
+    for (int i = 0; i < kBatch; ++i) {
+      const Triangle<direction> triangle(batch, i, air);
+      Vec3 b, g;
+      triangle.ExpandNormal(air, &b, &g);
+      const auto f1 = OfEdge(triangle, b, g, triangle.e2, triangle.de2);
+      const auto f2 = OfEdge(triangle, b, g, triangle.e1, triangle.de1);
+      const double cx = factors.cx * triangle.power;
+      const double cv = -kThird * factors.cv * triangle.power;
+      const Vec3 bw = cv * triangle.ExpandVelocity(factors.plain);
+      const Vec3 gw = cv * triangle.n;
+      const Vec3 c1 = -cx * f1.c, b1 = -cx * f1.b, g1 = -cx * f1.g;
+      const Vec3 c2 = cx * f2.c, b2 = cx * f2.b, g2 = cx * f2.g;
+      out[0].Set(i, Dense(triangle, -1.0 * (c1 + c2), bw - (b1 + b2), gw - (g1 + g2)));
+      out[1].Set(i, Dense(triangle, c1, bw + b1, gw + g1));
+      out[2].Set(i, Dense(triangle, c2, bw + b2, gw + g2));
+    }
+  });
+}
+
+DPE_VECTORIZE
+void AdjointLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air,
+                 double plain, AdjointLanes<2>* __restrict out) {
+  WithFlags({flags.direction, true},
+            [&](auto direction, auto /*velocity*/) DPE_INLINE_LAMBDA {
+              for (int i = 0; i < kBatch; ++i) {
+                const Triangle<direction> triangle(batch, i, air);
+                const Vec3 s = triangle.power * batch.s.Get(i);
+                Vec3 b, g;
+                triangle.ExpandNormal(air, &b, &g);
+                const auto f1 = OfEdge(triangle, b, g, triangle.e2, triangle.de2);
+                const auto f2 = OfEdge(triangle, b, g, triangle.e1, triangle.de1);
+                out->q[0].Set(i, -1.0 * TransposeTimes(triangle, f1, s));
+                out->q[1].Set(i, TransposeTimes(triangle, f2, s));
+                Vec3 u = Dot(triangle.n, s) * triangle.ExpandVelocity(plain);
+                if constexpr (direction) u = u + Dot(triangle.dn, s) * triangle.n;
+                out->u.Set(i, -kThird * u);
+              }
+            });
+}
+
+// dphi/dC for kappa = 1/6, and dphi/d(wind) for the kappa of the triangle.
+DPE_VECTORIZE
+void ParameterLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air,
+                   double coefficient, VectorLanes* __restrict out) {
+  WithFlags({flags.direction, true}, [&](auto direction,
+                                         auto /*velocity*/) DPE_INLINE_LAMBDA {
+    for (int i = 0; i < kBatch; ++i) {
+      const Triangle<direction> triangle(batch, i, air);
+      out[0].Set(i, triangle.Value());
+      const Vec3 b = (coefficient * triangle.power) * triangle.ExpandVelocity(1.0);
+      Mat3 of_wind = Outer(triangle.n, b);
+      if constexpr (direction) {
+        of_wind =
+            of_wind + Outer((coefficient * triangle.power) * triangle.dn, triangle.n);
+      }
+      out[1].Set(i, of_wind.x);
+      out[2].Set(i, of_wind.y);
+      out[3].Set(i, of_wind.z);
+    }
+  });
 }
 
 }  // namespace
 
-DragKernel::DragKernel(const ClothObject& object, AerodynamicsLaw law,
-                       const ObjectParameters* parameters)
+DragLaw::DragLaw(const ClothObject& object, AerodynamicsLaw law,
+                 const ObjectParameters* parameters)
     : parameters_(parameters), unit_normal_(law == AerodynamicsLaw::kUnitNormal) {
   for (const auto& t : object.triangles) {
     if (object.is_fixed[t[0]] && object.is_fixed[t[1]] && object.is_fixed[t[2]]) {
       continue;
     }
-    elements.push_back(t);
+    elements_.push_back(t);
   }
 }
 
-void DragKernel::PerCoefficient(const ElementInput<2>& in, Eigen::Vector3d* phi) const {
-  const Eigen::Vector3d n = in.q[0].cross(in.q[1]);
-  const Eigen::Vector3d w = parameters_->wind - in.u;
-  const double m2 = n.squaredNorm();
-  if (m2 == 0.0) {  // a collapsed triangle catches no air
-    phi->setZero();
-    return;
-  }
-  const double m = std::sqrt(m2);
-  const double power = (unit_normal_ ? 1.0 / m : m) / 6.0;
-  const double q = n.dot(w);
-  *phi = power * q * n;
-  if (!in.has_direction) return;
-  const double s = unit_normal_ ? -1.0 : 1.0;
-  const Eigen::Vector3d dn = in.dq[0].cross(in.q[1]) + in.q[0].cross(in.dq[1]);
-  const double r = n.dot(dn);
-  const double dq = dn.dot(w) - n.dot(in.du);
-  *phi += power * ((s * r * q / m2 + dq) * n + q * dn);
+DragLaw::Air DragLaw::AirOf(double coefficient) const {
+  const Eigen::Vector3d& wind = parameters_->wind;
+  const double kappa = coefficient / 6.0;
+  return {unit_normal_ ? 0.0 : kappa,
+          unit_normal_ ? kappa : 0.0,
+          unit_normal_ ? -1.0 : 1.0,
+          {wind.x(), wind.y(), wind.z()}};
 }
 
-void DragKernel::Value(int /*e*/, const ElementInput<2>& in,
-                       Eigen::Vector3d* phi) const {
-  PerCoefficient(in, phi);
-  *phi *= parameters_->drag_coefficient;
+void DragLaw::Values(const Batch& batch, LoopFlags flags, VectorLanes* phi) const {
+  ValueLoop(batch, flags, AirOf(parameters_->drag_coefficient), phi);
 }
 
-void DragKernel::Expand(int /*e*/, const ElementInput<2>& in, Expansion<2>* out) const {
-  const Eigen::Vector3d n = in.q[0].cross(in.q[1]);
-  const Eigen::Vector3d w = parameters_->wind - in.u;
-  const double m2 = n.squaredNorm();
-  if (m2 == 0.0) {
-    out->dq = {Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()};
-    out->du.setZero();
-    out->plain_du.setZero();
-    return;
-  }
-  const double m = std::sqrt(m2);
-  const double s = unit_normal_ ? -1.0 : 1.0;
-  const double power =
-      parameters_->drag_coefficient * (unit_normal_ ? 1.0 / m : m) / 6.0;
-  const double q = n.dot(w);
-  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d nnt = n * n.transpose();
-  Eigen::Matrix3d of_n =
-      power * ((s * q / m2) * nnt + q * identity + n * w.transpose());
-  out->plain_du = -power * nnt;
-  out->du = out->plain_du;
-  const Eigen::Matrix3d cross1 = CrossMatrix(in.q[0]);
-  const Eigen::Matrix3d cross2 = CrossMatrix(in.q[1]);
-  if (!in.has_direction) {
-    out->dq[0] = -of_n * cross2;
-    out->dq[1] = of_n * cross1;
-    return;
-  }
-  const Eigen::Vector3d dw = -in.du;
-  const Eigen::Vector3d dn = in.dq[0].cross(in.q[1]) + in.q[0].cross(in.dq[1]);
-  const double r = n.dot(dn);
-  const double dq = dn.dot(w) + n.dot(dw);
-  const Eigen::Matrix3d of_dn = of_n;  // dn enters dF as n enters F
-  of_n += power *
-          ((s * (s - 2.0) * r * q / (m2 * m2)) * nnt +
-           (s / m2) * (q * n * dn.transpose() + r * n * w.transpose() +
-                       (q * dn + dq * n) * n.transpose()) +
-           dn * w.transpose() + n * dw.transpose() + (dq + s * r * q / m2) * identity);
-  out->du -= power * ((s * r / m2) * nnt + dn * n.transpose() + n * dn.transpose());
-  out->dq[0] = -of_n * cross2 - of_dn * CrossMatrix(in.dq[1]);
-  out->dq[1] = of_n * cross1 + of_dn * CrossMatrix(in.dq[0]);
+void DragLaw::Matrices(const Batch& batch, LoopFlags flags, JacobianFactors factors,
+                       MatrixLanes* matrices) const {
+  MatrixLoop(batch, flags, AirOf(parameters_->drag_coefficient), factors, matrices);
+}
+
+void DragLaw::Adjoints(const Batch& batch, LoopFlags flags, VelocityPart part,
+                       AdjointLanes<2>* out) const {
+  AdjointLoop(batch, flags, AirOf(parameters_->drag_coefficient), PlainWeight(part),
+              out);
+}
+
+void DragLaw::Parameters(const Batch& batch, LoopFlags flags, VectorLanes* out) const {
+  ParameterLoop(batch, flags, AirOf(1.0), parameters_->drag_coefficient, out);
 }
 
 }  // namespace dpe

@@ -53,7 +53,7 @@ class ElementTerm final : public ForceTerm {
 
   explicit ElementTerm(Kernel kernel) : kernel_(std::move(kernel)) {}
 
-  const Kernel& kernel() const { return kernel_; }
+  int num_elements() const { return static_cast<int>(kernel_.elements.size()); }
 
   void AppendCouplings(std::vector<std::pair<int, int>>* pairs) const override {
     for (const auto& vertices : kernel_.elements) {
@@ -156,8 +156,6 @@ class ElementTerm final : public ForceTerm {
   bool IsSymmetric() const override { return kernel_.IsSymmetric(); }
 
  private:
-  int num_elements() const { return static_cast<int>(kernel_.elements.size()); }
-
   void Gather(const ForceState& state, int e, ElementInput<kCoords>* input) const {
     const auto& vertices = kernel_.elements[e];
     Reduce(state.x, vertices, &input->q);

@@ -42,6 +42,11 @@ enum class VelocityPart {
   kMinusPlain  // dphi/dv - df/dv: the part that second derivatives contribute
 };
 
+// The weight that df/dv has in a part of dphi/dv.
+inline double PlainWeight(VelocityPart part) {
+  return part == VelocityPart::kWhole ? 1.0 : 0.0;
+}
+
 class ForceTerm {
  public:
   virtual ~ForceTerm() = default;

@@ -70,6 +70,15 @@ class ParameterSink {
     return columns_.Column(kind, element) >= 0;
   }
   void set_scale(double scale) { scale_ = scale; }
+  double scale() const { return scale_; }
+  // lambda if a gradient is being built, null if entries are being listed.
+  const double* adjoint() const { return lambda_; }
+
+  // For a gradient: adds `value` = scale * lambda^T dphi/dp, contracted by the caller.
+  void AddToGradient(ParameterKind kind, int element, double value) {
+    const int column = columns_.Column(kind, element);
+    if (column >= 0) gradient_[column] += value;
+  }
 
   // The derivative of the force on vertices[j] is weights[j] * d, j < count.
   void Add(ParameterKind kind, int element, const Eigen::Vector3d& d,

@@ -2,81 +2,197 @@
 
 #include <cmath>
 
-namespace dpe {
+#include "linear/vectorize.h"
 
-SpringKernel::SpringKernel(const ClothObject& object,
-                           const ObjectParameters* parameters)
+namespace dpe {
+namespace {
+
+// The quantities of the header's equations, of one spring. Without a direction du, a
+// and dT are zero, and without velocity all that beta multiplies; they are then unset.
+template <bool kDirection, bool kVelocity>
+struct Spring {
+  DPE_ALWAYS_INLINE Spring(const SpringLaw::Batch& batch, int lane, double beta_in)
+      : k(batch.constants[0].at[lane]), beta(beta_in) {
+    const Vec3 d = batch.q[0].Get(lane);
+    const double length = std::sqrt(Dot(d, d));
+    inverse_length = 1.0 / length;
+    u = inverse_length * d;
+    tension = length - batch.constants[1].at[lane];
+    whole_tension = tension;
+    if constexpr (kVelocity) {
+      w = batch.u.Get(lane);
+      rate = Dot(u, w);
+      tension += beta * rate;
+      whole_tension = tension;
+    }
+    if constexpr (kDirection) {
+      const Vec3 dd = batch.dq[0].Get(lane);
+      a = Dot(u, dd);
+      du = inverse_length * (dd - a * u);
+      whole_tension += a;
+      if constexpr (kVelocity) {
+        dw = batch.du.Get(lane);
+        drate = Dot(du, w) + Dot(u, dw);
+        whole_tension += beta * drate;
+      }
+    }
+  }
+
+  // phi / -k.
+  DPE_ALWAYS_INLINE Vec3 Value() const {
+    if constexpr (kDirection) return whole_tension * u + tension * du;
+    return whole_tension * u;
+  }
+
+  // dphi/dd / -k as gamma I + u b^T + du e^T.
+  DPE_ALWAYS_INLINE void ExpandPosition(double* gamma, Vec3* b, Vec3* e) const {
+    const double stress = tension * inverse_length;
+    *gamma = whole_tension * inverse_length;
+    if constexpr (kDirection) *gamma -= stress * a * inverse_length;
+    *e = (1.0 - stress) * u;
+    *b = (1.0 - *gamma) * u;
+    if constexpr (kDirection) *b = *b + (1.0 - stress) * du;
+    if constexpr (kVelocity) {
+      const Vec3 uw = inverse_length * (w - rate * u);  // U w
+      *e = *e + beta * uw;
+      *b = *b + beta * uw;
+      if constexpr (kDirection) {  // V w + U dw
+        *b = *b + (beta * inverse_length) * (dw - a * uw - drate * u - rate * du);
+      }
+    }
+  }
+
+  // dphi/dw / -k as u b^T + du e^T; `plain` is the weight of dg/dw.
+  DPE_ALWAYS_INLINE void ExpandVelocity(double plain, Vec3* b, Vec3* e) const {
+    *e = beta * u;
+    *b = plain * *e;
+    if constexpr (kDirection) *b = *b + beta * du;
+  }
+
+  double k, beta;
+  double inverse_length;
+  Vec3 u;
+  double tension, whole_tension;  // T, T + dT
+  Vec3 w, dw;
+  double rate, drate;  // c, dc
+  Vec3 du;
+  double a;
+};
+
+DPE_VECTORIZE
+void ValueLoop(const SpringLaw::Batch& __restrict batch, LoopFlags flags, double beta,
+               VectorLanes* __restrict phi) {
+  WithFlags(flags, [&](auto direction, auto velocity) DPE_INLINE_LAMBDA {
+    for (int i = 0; i < kBatch; ++i) {
+      const Spring<direction, velocity> spring(batch, i, beta);
+      phi->Set(i, -spring.k * spring.Value());
+    }
+  });
+}
+
+DPE_VECTORIZE
+void MatrixLoop(const SpringLaw::Batch& __restrict batch, LoopFlags flags, double beta,
+                JacobianFactors factors, MatrixLanes* __restrict out) {
+  WithFlags(flags, [&](auto direction, auto velocity) DPE_INLINE_LAMBDA {
+    for (int i = 0; i < kBatch; ++i) {
+      const Spring<direction, velocity> spring(batch, i, beta);
+      double gamma;
+      Vec3 b, e;
+      spring.ExpandPosition(&gamma, &b, &e);
+      const double cx = -spring.k * factors.cx;
+      b = cx * b;
+      e = cx * e;
+      if constexpr (velocity) {
+        Vec3 bv, ev;
+        spring.ExpandVelocity(factors.plain, &bv, &ev);
+        const double cv = -spring.k * factors.cv;
+        b = b + cv * bv;
+        e = e + cv * ev;
+      }
+      Mat3 matrix = AddDiagonal(Outer(spring.u, b), cx * gamma);
+      if constexpr (direction) matrix = matrix + Outer(spring.du, e);
+      out->Set(i, matrix);
+    }
+  });
+}
+
+DPE_VECTORIZE
+void AdjointLoop(const SpringLaw::Batch& __restrict batch, LoopFlags flags, double beta,
+                 double plain, AdjointLanes<1>* __restrict out) {
+  WithFlags(flags, [&](auto direction, auto velocity) DPE_INLINE_LAMBDA {
+    for (int i = 0; i < kBatch; ++i) {
+      const Spring<direction, velocity> spring(batch, i, beta);
+      const Vec3 s = -spring.k * batch.s.Get(i);
+      const double us = Dot(spring.u, s);
+      double gamma;
+      Vec3 b, e;
+      spring.ExpandPosition(&gamma, &b, &e);
+      Vec3 q = gamma * s + us * b;
+      if constexpr (direction) q = q + Dot(spring.du, s) * e;
+      out->q[0].Set(i, q);
+      if constexpr (velocity) {
+        spring.ExpandVelocity(plain, &b, &e);
+        Vec3 u = us * b;
+        if constexpr (direction) u = u + Dot(spring.du, s) * e;
+        out->u.Set(i, u);
+      }
+    }
+  });
+}
+
+// dphi/dk, and with velocities dphi/d(damping).
+DPE_VECTORIZE
+void ParameterLoop(const SpringLaw::Batch& __restrict batch, LoopFlags flags,
+                   double beta, VectorLanes* __restrict out) {
+  WithFlags(flags, [&](auto direction, auto velocity) DPE_INLINE_LAMBDA {
+    for (int i = 0; i < kBatch; ++i) {
+      const Spring<direction, velocity> spring(batch, i, beta);
+      out[0].Set(i, -1.0 * spring.Value());
+      if constexpr (velocity) {
+        Vec3 per_beta = spring.rate * spring.u;
+        if constexpr (direction) {
+          per_beta = per_beta + spring.drate * spring.u + spring.rate * spring.du;
+        }
+        out[1].Set(i, -0.5 * spring.k * per_beta);
+      }
+    }
+  });
+}
+
+}  // namespace
+
+SpringLaw::SpringLaw(const ClothObject& object, const ObjectParameters* parameters)
     : parameters_(parameters) {
   for (int s = 0; s < object.num_springs(); ++s) {
     const auto [a, b] = object.springs[s];
     if (object.is_fixed[a] && object.is_fixed[b]) continue;
-    elements.push_back({a, b});
+    elements_.push_back({a, b});
     springs_.push_back(s);
     rest_lengths_.push_back(
         (object.positions.segment<3>(3 * a) - object.positions.segment<3>(3 * b))
             .norm());
   }
+  PadToBatches(&springs_);
+  PadToBatches(&rest_lengths_);
 }
 
-void SpringKernel::Value(int e, const ElementInput<1>& in, Eigen::Vector3d* phi) const {
-  const double k = Stiffness(e);
-  const double beta = 0.5 * parameters_->damping;
-  const double length = in.q[0].norm();
-  const Eigen::Vector3d u = in.q[0] / length;
-  const double tension = length - rest_lengths_[e] + beta * u.dot(in.u);
-  *phi = -k * tension * u;
-  if (!in.has_direction) return;
-  const double stretch_rate = u.dot(in.dq[0]);
-  const Eigen::Vector3d turn = (in.dq[0] - stretch_rate * u) / length;
-  const double tension_rate = stretch_rate + beta * (turn.dot(in.u) + u.dot(in.du));
-  *phi -= k * (tension_rate * u + tension * turn);
+void SpringLaw::Values(const Batch& batch, LoopFlags flags, VectorLanes* phi) const {
+  ValueLoop(batch, flags, Beta(), phi);
 }
 
-void SpringKernel::Expand(int e, const ElementInput<1>& in, Expansion<1>* out) const {
-  const double k = Stiffness(e);
-  const double beta = 0.5 * parameters_->damping;
-  const double length = in.q[0].norm();
-  const Eigen::Vector3d u = in.q[0] / length;
-  const Eigen::Vector3d& w = in.u;
-  const double tension = length - rest_lengths_[e] + beta * u.dot(w);
-  const Eigen::Matrix3d uut = u * u.transpose();
-  const Eigen::Matrix3d turn_of_d = (Eigen::Matrix3d::Identity() - uut) / length;
-  out->plain_du = (-k * beta) * uut;
-  if (!in.has_direction) {
-    out->dq[0] =
-        -k * (u * (u + beta * (turn_of_d * w)).transpose() + tension * turn_of_d);
-    out->du = out->plain_du;
-    return;
-  }
-  const double stretch_rate = u.dot(in.dq[0]);
-  const Eigen::Vector3d turn = turn_of_d * in.dq[0];
-  const double tension_rate = stretch_rate + beta * (turn.dot(w) + u.dot(in.du));
-  const Eigen::Matrix3d u_turn = u * turn.transpose();
-  const Eigen::Matrix3d turn_of_d2 =
-      -(stretch_rate * turn_of_d + u_turn + u_turn.transpose()) / length;
-  out->dq[0] =
-      -k * ((u + turn) * (u + beta * (turn_of_d * w)).transpose() +
-            tension * (turn_of_d + turn_of_d2) +
-            u * (turn + beta * (turn_of_d2 * w + turn_of_d * in.du)).transpose() +
-            tension_rate * turn_of_d);
-  out->du = out->plain_du - (k * beta) * (u_turn + u_turn.transpose());
+void SpringLaw::Matrices(const Batch& batch, LoopFlags flags, JacobianFactors factors,
+                         MatrixLanes* matrices) const {
+  MatrixLoop(batch, flags, Beta(), factors, matrices);
 }
 
-void SpringKernel::PerStiffness(int e, const ElementInput<1>& in, Eigen::Vector3d* phi,
-                                Eigen::Vector3d* per_beta) const {
-  const double beta = 0.5 * parameters_->damping;
-  const double length = in.q[0].norm();
-  const Eigen::Vector3d u = in.q[0] / length;
-  const double rate = u.dot(in.u);
-  const double tension = length - rest_lengths_[e] + beta * rate;
-  *phi = -tension * u;
-  *per_beta = -rate * u;
-  if (!in.has_direction) return;
-  const double stretch_rate = u.dot(in.dq[0]);
-  const Eigen::Vector3d turn = (in.dq[0] - stretch_rate * u) / length;
-  const double rate_rate = turn.dot(in.u) + u.dot(in.du);
-  *phi -= (stretch_rate + beta * rate_rate) * u + tension * turn;
-  *per_beta -= rate_rate * u + rate * turn;
+void SpringLaw::Adjoints(const Batch& batch, LoopFlags flags, VelocityPart part,
+                         AdjointLanes<1>* out) const {
+  AdjointLoop(batch, flags, Beta(), PlainWeight(part), out);
+}
+
+void SpringLaw::Parameters(const Batch& batch, LoopFlags flags,
+                           VectorLanes* out) const {
+  ParameterLoop(batch, flags, Beta(), out);
 }
 
 }  // namespace dpe
