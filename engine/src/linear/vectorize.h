@@ -14,11 +14,9 @@
 #define DPE_VECTORIZE
 #endif
 
-// For the body of such functions where several share one: it is compiled anew in each.
-#if defined(__GNUC__)
-#define DPE_ALWAYS_INLINE inline __attribute__((always_inline))
-#else
-#define DPE_ALWAYS_INLINE inline
-#endif
+// For functions (and lambdas) that are inlined into such functions, and so compiled anew
+// for each instruction set.
+#define DPE_INLINE_LAMBDA __attribute__((always_inline))
+#define DPE_ALWAYS_INLINE inline DPE_INLINE_LAMBDA
 
 #endif  // DPE_ENGINE_LINEAR_VECTORIZE_H_
