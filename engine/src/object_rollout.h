@@ -2,20 +2,22 @@
 #ifndef DPE_ENGINE_OBJECT_ROLLOUT_H_
 #define DPE_ENGINE_OBJECT_ROLLOUT_H_
 
-#include <cstddef>
-
 #include "dpe/engine/simulator.h"
+#include "memory_plan.h"
 #include "object_system.h"
 #include "rollout_tape.h"
 
 namespace dpe {
 
-// Fills the object's frames of `trajectory` (allocated, NaN) and, if not null, `tape`,
-// whose solvers may take up to `solver_bytes`.
+// What a rollout of one object could keep.
+MemoryDemand DemandOf(const Scene& scene, const SimulatorOptions& options,
+                      const ObjectSystem& system);
+
+// Fills the object's frames of `trajectory` (allocated, NaN) and, if not null, `tape`
+// (its pool is set), which keeps what the plan says.
 RolloutStatus RollOutObject(const Scene& scene, const SimulatorOptions& options,
-                            int object, int num_frames, size_t solver_bytes,
-                            ObjectSystem* system, ObjectTape* tape,
-                            Trajectory* trajectory);
+                            int object, const MemoryPlan& plan, ObjectSystem* system,
+                            ObjectTape* tape, Trajectory* trajectory);
 
 }  // namespace dpe
 

@@ -44,6 +44,8 @@ class ObjectSystem {
   }
   // Bytes that a kept solver takes.
   size_t solver_bytes() const { return solver_context_->solver_bytes(IsSymmetric()); }
+  // Whether keeping solvers saves more than the assembly of their matrices.
+  bool KeepingSolversPays() const { return !solver_context_->iterative; }
 
   const ObjectParameters& parameters() const { return parameters_; }
   // Columns of this object's parameters in the layout, and the same renumbered from 0.

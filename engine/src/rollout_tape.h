@@ -1,15 +1,16 @@
-// What a rollout leaves behind for its derivative passes: the states before and after
-// every step of every simulated object, and as many factorised step matrices as fit.
+// What a rollout keeps for its derivative passes beside the trajectory: states between
+// frames and factorised step matrices, as many as the memory limit allows
+// (memory_plan.h). What is not kept, passes make again.
 #ifndef DPE_ENGINE_ROLLOUT_TAPE_H_
 #define DPE_ENGINE_ROLLOUT_TAPE_H_
 
-#include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <utility>
 #include <vector>
 
-#include "integrators/integrator.h"
+#include "inner_states.h"
 #include "object_system.h"
 
 namespace dpe {
@@ -44,44 +45,26 @@ struct ObjectTape {
     }
   }
 
-  // Column s is the state after s steps, 3N x (steps + 1). Velocities of fixed vertices
-  // in column s are those of the step that ends there.
-  Eigen::MatrixXd positions;
-  Eigen::MatrixXd velocities;
-  // Column s is the stage within step s, for methods with two stages; else 0 x 0.
-  Eigen::MatrixXd stage_positions;
-  Eigen::MatrixXd stage_velocities;
-  // solvers[s] is the solver of step s as the step left it; the first ones that fit
-  // into the memory limit.
+  // Of the first frames.
+  InnerStates inner;
+  // solvers[s] is the solver of step s as the step left it, of the first steps.
   std::vector<std::unique_ptr<StepSolver>> solvers;
+  std::size_t bytes_per_solver = 0;
   std::shared_ptr<SolverPool> pool;
 };
 
 class RolloutTape {
  public:
-  std::vector<ObjectTape> objects;  // empty matrices: not simulated
-};
+  std::vector<ObjectTape> objects;
 
-// The states around step `s` (0-based) of a tape. v0 is copied into `v0_buffer` because
-// its fixed entries must hold the velocity over this step.
-inline StepStates StatesOfStep(const ObjectSystem& system, const ObjectTape& tape,
-                               int s, double h, Eigen::VectorXd* v0_buffer) {
-  *v0_buffer = tape.velocities.col(s);
-  system.SetPrescribedVelocities(h, tape.positions.col(s).data(),
-                                 tape.positions.col(s + 1).data(), v0_buffer->data());
-  StepStates states{h,
-                    tape.positions.col(s).data(),
-                    v0_buffer->data(),
-                    tape.positions.col(s + 1).data(),
-                    tape.velocities.col(s + 1).data(),
-                    nullptr,
-                    nullptr};
-  if (tape.stage_positions.size() > 0) {
-    states.xs = tape.stage_positions.col(s).data();
-    states.vs = tape.stage_velocities.col(s).data();
+  std::size_t bytes() const {
+    std::size_t sum = 0;
+    for (const ObjectTape& tape : objects) {
+      sum += tape.inner.bytes() + tape.solvers.size() * tape.bytes_per_solver;
+    }
+    return sum;
   }
-  return states;
-}
+};
 
 }  // namespace dpe
 

@@ -1,13 +1,30 @@
 #include "dpe/engine/sensitivity.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "derivatives/gradient_pass.h"
 #include "derivatives/jacobian_pass.h"
 #include "object_system.h"
+#include "parallel.h"
 #include "rollout_tape.h"
 
 namespace dpe {
+namespace {
+
+// Those of one object, sorted by frame.
+StateDerivatives DerivativesOf(const std::vector<StateDerivative>& derivatives,
+                               int object) {
+  StateDerivatives result;
+  for (const StateDerivative& d : derivatives) {
+    if (d.object == object) result.push_back(&d);
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const auto* a, const auto* b) { return a->frame < b->frame; });
+  return result;
+}
+
+}  // namespace
 
 Sensitivity::Sensitivity(Simulator* simulator, const Rollout* rollout)
     : simulator_(simulator), rollout_(rollout) {
@@ -16,19 +33,36 @@ Sensitivity::Sensitivity(Simulator* simulator, const Rollout* rollout)
   }
 }
 
+ObjectRecord Sensitivity::Record(int object) const {
+  return {&simulator_->scene_,
+          &simulator_->options_,
+          simulator_->systems_[object].get(),
+          &rollout_->tape_->objects[object],
+          &rollout_->trajectory_.positions[object],
+          &rollout_->trajectory_.velocities[object]};
+}
+
 Eigen::VectorXd Sensitivity::Gradient(const std::vector<Eigen::MatrixXd>& dl_dx,
                                       const std::vector<Eigen::MatrixXd>& dl_dv) {
   const ScopedTimer timer(simulator_->options_.timings, TimedPart::kDerivatives);
+  const int num_objects = static_cast<int>(simulator_->systems_.size());
+  std::vector<Eigen::VectorXd> parts(num_objects);
+  std::atomic<bool> ok{true};
+  ParallelFor(simulator_->options_.num_threads, num_objects, [&](int o) {
+    const Eigen::MatrixXd none;
+    const Eigen::MatrixXd& seed_x =
+        o < static_cast<int>(dl_dx.size()) ? dl_dx[o] : none;
+    const Eigen::MatrixXd& seed_v =
+        o < static_cast<int>(dl_dv.size()) ? dl_dv[o] : none;
+    if (!simulator_->systems_[o] || (seed_x.size() == 0 && seed_v.size() == 0)) return;
+    if (!ObjectGradient(Record(o), seed_x, seed_v, &parts[o])) ok = false;
+  });
+  ok_ &= ok;
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(simulator_->layout().size());
-  const Eigen::MatrixXd none;
-  for (size_t o = 0; o < simulator_->systems_.size(); ++o) {
-    if (!simulator_->systems_[o]) continue;
-    const Eigen::MatrixXd& seed_x = o < dl_dx.size() ? dl_dx[o] : none;
-    const Eigen::MatrixXd& seed_v = o < dl_dv.size() ? dl_dv[o] : none;
-    if (seed_x.size() == 0 && seed_v.size() == 0) continue;
-    ok_ &= AddObjectGradient(simulator_->scene_, simulator_->options_,
-                             simulator_->systems_[o].get(), rollout_->tape_->objects[o],
-                             seed_x, seed_v, &gradient);
+  for (int o = 0; o < num_objects; ++o) {  // in this order whatever the threads
+    if (parts[o].size() == 0) continue;
+    const std::vector<int>& columns = simulator_->systems_[o]->columns().used();
+    for (size_t k = 0; k < columns.size(); ++k) gradient[columns[k]] += parts[o][k];
   }
   return gradient;
 }
@@ -37,19 +71,15 @@ void Sensitivity::JacobianVectorProduct(const Eigen::VectorXd& dp,
                                         std::vector<Eigen::MatrixXd>* dx,
                                         std::vector<Eigen::MatrixXd>* dv) {
   const ScopedTimer timer(simulator_->options_.timings, TimedPart::kDerivatives);
-  const size_t num_objects = simulator_->systems_.size();
+  const int num_objects = static_cast<int>(simulator_->systems_.size());
   dx->assign(num_objects, {});
   dv->assign(num_objects, {});
-  for (size_t o = 0; o < num_objects; ++o) {
-    if (!simulator_->systems_[o]) continue;
-    const PassInput input{&simulator_->scene_,
-                          &simulator_->options_,
-                          simulator_->systems_[o].get(),
-                          &rollout_->tape_->objects[o],
-                          {}};
-    ok_ &= PropagateTangent(input, dp, rollout_->trajectory().num_frames(), &(*dx)[o],
-                            &(*dv)[o]);
-  }
+  std::atomic<bool> ok{true};
+  ParallelFor(simulator_->options_.num_threads, num_objects, [&](int o) {
+    if (!simulator_->systems_[o]) return;
+    if (!PropagateTangent(Record(o), dp, &(*dx)[o], &(*dv)[o])) ok = false;
+  });
+  ok_ &= ok;
 }
 
 RowMajorMatrix Sensitivity::Jacobian(const std::vector<StateDerivative>& derivatives,
@@ -57,20 +87,13 @@ RowMajorMatrix Sensitivity::Jacobian(const std::vector<StateDerivative>& derivat
   const ScopedTimer timer(simulator_->options_.timings, TimedPart::kDerivatives);
   if (method == JacobianMethod::kAuto) method = CheaperMethod(derivatives);
   RowMajorMatrix jacobian = RowMajorMatrix::Zero(num_rows, simulator_->layout().size());
-  for (size_t o = 0; o < simulator_->systems_.size(); ++o) {
+  // One object after the other: several may add to the same rows.
+  for (int o = 0; o < static_cast<int>(simulator_->systems_.size()); ++o) {
     if (!simulator_->systems_[o]) continue;
-    PassInput input{&simulator_->scene_,
-                    &simulator_->options_,
-                    simulator_->systems_[o].get(),
-                    &rollout_->tape_->objects[o],
-                    {}};
-    for (const StateDerivative& d : derivatives) {
-      if (d.object == static_cast<int>(o)) input.derivatives.push_back(&d);
-    }
-    std::stable_sort(input.derivatives.begin(), input.derivatives.end(),
-                     [](const auto* a, const auto* b) { return a->frame < b->frame; });
-    ok_ &= method == JacobianMethod::kTangent ? AddTangentJacobian(input, &jacobian)
-                                              : AddAdjointJacobian(input, &jacobian);
+    const StateDerivatives of_object = DerivativesOf(derivatives, o);
+    ok_ &= method == JacobianMethod::kTangent
+               ? AddTangentJacobian(Record(o), of_object, &jacobian)
+               : AddAdjointJacobian(Record(o), of_object, &jacobian);
   }
   return jacobian;
 }

@@ -4,6 +4,7 @@
 
 #include "dpe/engine/scene_io.h"
 #include "integrators/integrator.h"
+#include "memory_plan.h"
 #include "object_rollout.h"
 #include "object_system.h"
 #include "parallel.h"
@@ -14,6 +15,8 @@ Rollout::Rollout() = default;
 Rollout::Rollout(Rollout&&) noexcept = default;
 Rollout& Rollout::operator=(Rollout&&) noexcept = default;
 Rollout::~Rollout() = default;
+
+std::size_t Rollout::kept_bytes() const { return tape_ ? tape_->bytes() : 0; }
 
 Simulator::Simulator(const Scene& scene, const SimulatorOptions& options)
     : scene_(scene), options_(options) {
@@ -44,7 +47,16 @@ Trajectory Simulator::RollOut(int num_frames, RolloutTape* tape) {
   Trajectory trajectory;
   trajectory.positions.resize(num_objects);
   trajectory.velocities.resize(num_objects);
-  if (tape != nullptr) tape->objects.resize(num_objects);
+  MemoryPlan plan;
+  if (tape != nullptr) {
+    tape->objects.resize(num_objects);
+    std::vector<MemoryDemand> demands;
+    for (const auto& system : systems_) {
+      if (system) demands.push_back(DemandOf(scene_, options_, *system));
+    }
+    plan = PlanMemory(options_.memory_limit_bytes, num_frames - 1,
+                      scene_.steps_per_frame, demands);
+  }
   std::vector<RolloutStatus> statuses(num_objects);
   ParallelFor(options_.num_threads, num_objects, [&](int o) {
     if (!systems_[o]) return;
@@ -53,9 +65,8 @@ Trajectory Simulator::RollOut(int num_frames, RolloutTape* tape) {
       states->setConstant(systems_[o]->num_coordinates(), num_frames, nan);
     }
     if (tape != nullptr) tape->objects[o].pool = solver_pools_[o];
-    statuses[o] = RollOutObject(
-        scene_, options_, o, num_frames, options_.factorization_bytes / num_objects,
-        systems_[o].get(), tape ? &tape->objects[o] : nullptr, &trajectory);
+    statuses[o] = RollOutObject(scene_, options_, o, plan, systems_[o].get(),
+                                tape ? &tape->objects[o] : nullptr, &trajectory);
   });
   for (const RolloutStatus& status : statuses) {
     if (!status.ok() && trajectory.status.ok()) trajectory.status = status;

@@ -11,7 +11,6 @@
 #include "linear/block_pattern.h"
 #include "linear/block_solver.h"
 #include "linear/iterative_solver.h"
-#include "linear/multiply_many.h"
 #include "linear/step_solver.h"
 #include "support/derivative_checker.h"
 
@@ -228,16 +227,6 @@ TEST(BlockPatternTest, ProductsMatchTheDenseMatrix) {
   EXPECT_LT((y - a * x).norm(), 1e-13 * y.norm());
   pattern.MultiplyTransposed(values.data(), x.data(), y.data());
   EXPECT_LT((y - a.transpose() * x).norm(), 1e-13 * y.norm());
-  for (const bool transposed : {false, true}) {
-    RowMajorMatrix in(pattern.num_rows(), 7);
-    in.reshaped() = RandomVector(static_cast<int>(in.size()), 6);
-    RowMajorMatrix out = RowMajorMatrix::Ones(in.rows(), in.cols());
-    AddMultiplyMany(pattern, values.data(), transposed, in.data(), 7, out.data());
-    const Eigen::MatrixXd op = transposed ? Eigen::MatrixXd(a.transpose()) : a;
-    const Eigen::MatrixXd expected =
-        op * in + Eigen::MatrixXd::Ones(in.rows(), in.cols());
-    EXPECT_LT((out - expected).norm(), 1e-13 * expected.norm());
-  }
 }
 
 }  // namespace

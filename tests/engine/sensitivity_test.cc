@@ -152,7 +152,7 @@ TEST_P(KeptFactorizationTest, GradientDoesNotDependOnWhatWasKept) {
   // Nothing kept, a few steps (one takes about 0.1 MB), all steps.
   for (const std::size_t bytes : {0u, 400'000u, 500'000'000u}) {
     SimulatorOptions options;
-    options.factorization_bytes = bytes;
+    options.memory_limit_bytes = bytes;
     Simulator simulator(scene, options);
     const Eigen::VectorXd p = simulator.layout().Extract(scene);
     // The second rollout reuses the solvers of the first.

@@ -7,15 +7,11 @@
 #include <numeric>
 
 #include "derivatives/jacobian_pass.h"
-#include "integrators/integrator.h"
-#include "linear/block_solver.h"
-#include "linear/multiply_many.h"
+#include "derivatives/stage_matrices.h"
 #include "parallel.h"
 
 namespace dpe {
 namespace {
-
-constexpr int kBlockRows = 64;
 
 // A group of residual rows; column k of the matrices belongs to rows[k].
 struct AdjointBlock {
@@ -28,14 +24,13 @@ struct AdjointBlock {
 
 class AdjointSweep {
  public:
-  AdjointSweep(const PassInput& input, int num_rows)
-      : input_(input),
-        system_(*input.system),
-        integrator_(MakeIntegrator(input.scene->integration_method, *input.options)),
-        solver_(system_.pattern()),
-        v0_(system_.num_coordinates()),
+  AdjointSweep(const ObjectRecord& record, const StateDerivatives& derivatives,
+               int num_rows)
+      : system_(*record.system),
+        steps_per_frame_(record.scene->steps_per_frame),
+        matrices_(record, /*transposed=*/true),
         place_of_row_(num_rows, {-1, -1}) {
-    MakeBlocks(num_rows);
+    MakeBlocks(derivatives, num_rows);
   }
 
   int last_frame() const { return blocks_.empty() ? 0 : blocks_.front().last_frame; }
@@ -47,17 +42,19 @@ class AdjointSweep {
 
   // Moves the adjoints of all rows that depend on a later state back over step `s`.
   bool StepBack(int s) {
-    const StepStates states =
-        StatesOfStep(system_, *input_.tape, s, input_.scene->step_length(), &v0_);
-    const int steps_per_frame = input_.scene->steps_per_frame;
-    int active = 0;
+    if (!matrices_.Read(s)) return false;
+    int active = 0, num_columns = 0;
     while (active < static_cast<int>(blocks_.size()) &&
-           blocks_[active].last_frame * steps_per_frame > s) {
-      ++active;
+           blocks_[active].last_frame * steps_per_frame_ > s) {
+      num_columns += static_cast<int>(blocks_[active++].rows.size());
     }
-    for (int stage = integrator_->num_stages() - 1; stage >= 0; --stage) {
-      integrator_->TangentStage(stage, &system_, system_.solver(), states, &linear_);
-      if (!SolveStage(active, stage)) return false;
+    for (int stage = matrices_.num_stages() - 1; stage >= 0; --stage) {
+      if (!matrices_.Linearize(stage, num_columns)) return false;
+      std::atomic<bool> ok{true};
+      ParallelFor(matrices_.num_threads(), active, [&](int b) {
+        if (!StepBlockBack(stage, &blocks_[b])) ok = false;
+      });
+      if (!ok) return false;
     }
     return true;
   }
@@ -81,35 +78,10 @@ class AdjointSweep {
   }
 
  private:
-  bool SolveStage(int active, int stage) {
-    if (!linear_.a_is_mass && !solver_.Prepare(system_.solver(), system_.IsSymmetric(),
-                                               active * kBlockRows)) {
-      return false;
-    }
-    const bool last_of_two = stage > 0;
-    const bool first_of_two = stage == 0 && integrator_->num_stages() > 1;
-    std::atomic<bool> ok{true};
-    const bool serial = !linear_.a_is_mass && !solver_.thread_safe();
-    ParallelFor(serial ? 1 : input_.options->num_threads, active, [&](int b) {
-      AdjointBlock& block = blocks_[b];
-      if (!StepBlockBack(&block)) ok = false;
-      if (last_of_two) {
-        block.wx_start = linear_.start_weight * block.wx;
-        block.wv_start = linear_.start_weight * block.wv;
-        block.wx *= linear_.weight;
-        block.wv *= linear_.weight;
-      } else if (first_of_two) {
-        block.wx += block.wx_start;
-        block.wv += block.wv_start;
-      }
-    });
-    return ok;
-  }
-
   // Rows with the latest last frame come first, so that a step touches a prefix.
-  void MakeBlocks(int num_rows) {
+  void MakeBlocks(const StateDerivatives& derivatives, int num_rows) {
     std::vector<int> last(num_rows, -1);
-    for (const StateDerivative* d : input_.derivatives) {
+    for (const StateDerivative* d : derivatives) {
       const int rows =
           static_cast<int>(std::max(d->d_position.rows(), d->d_velocity.rows()));
       for (int r = d->first_row; r < d->first_row + rows; ++r) {
@@ -122,7 +94,7 @@ class AdjointSweep {
                      [&](int a, int b) { return last[a] > last[b]; });
     for (int row : order) {
       if (last[row] < 0) break;
-      if (blocks_.empty() || blocks_.back().rows.size() == kBlockRows) {
+      if (blocks_.empty() || blocks_.back().rows.size() == kPassBlock) {
         blocks_.emplace_back();
         blocks_.back().last_frame = last[row];
       }
@@ -133,7 +105,7 @@ class AdjointSweep {
     const int n = system_.pattern().num_rows();
     for (AdjointBlock& block : blocks_) {
       block.wx = RowMajorMatrix::Zero(n, block.rows.size());
-      block.wv = block.wx;
+      block.wv = block.lambda = block.wx;
       block.gradient = RowMajorMatrix::Zero(system_.local_columns().used().size(),
                                             block.rows.size());
     }
@@ -150,49 +122,52 @@ class AdjointSweep {
     }
   }
 
-  bool StepBlockBack(AdjointBlock* block) const {
-    const BlockPattern& pattern = system_.pattern();
+  bool StepBlockBack(int stage, AdjointBlock* block) const {
+    const StageLinearization& linear = matrices_.linear();
     const int count = static_cast<int>(block->rows.size());
-    block->lambda = block->wv;
-    if (linear_.c != 0.0) block->lambda += linear_.c * block->wx;
-    if (linear_.a_is_mass) {
-      for (int node = 0; node < pattern.num_nodes(); ++node) {
-        block->lambda.middleRows<3>(3 * node) /=
-            system_.parameters().mass[system_.free_vertices()[node]];
+    const long size = block->wx.size();
+    double* wx = block->wx.data();
+    double* wv = block->wv.data();
+    double* lambda = block->lambda.data();
+    Combine(size, 1.0, wv, linear.c, wx, lambda);
+    if (!matrices_.Solve(lambda, count)) return false;
+    matrices_.rv().Multiply(lambda, count, linear.p, linear.p != 0.0 ? wx : nullptr,
+                            wv);
+    matrices_.rx().Multiply(lambda, count, 1.0, wx, wx);
+    for (int i = 0; i < matrices_.num_entry_blocks(); ++i) {
+      for (const ParameterEntry& e : matrices_.entries(i)) {
+        AddScaled(count, e.value, block->lambda.row(e.row).data(),
+                  block->gradient.row(e.column).data());
       }
-    } else if (!solver_.Solve(block->lambda.data(), count, /*transposed=*/true)) {
-      return false;
     }
-    block->wv = linear_.p * block->wx;
-    AddMultiplyMany(pattern, linear_.rv.data(), true, block->lambda.data(), count,
-                    block->wv.data());
-    AddMultiplyMany(pattern, linear_.rx.data(), true, block->lambda.data(), count,
-                    block->wx.data());
-    for (const ParameterEntry& e : linear_.entries) {
-      const int row = 3 * system_.node_of_vertex()[e.row / 3] + e.row % 3;
-      block->gradient.row(e.column) += e.value * block->lambda.row(row);
+    if (stage > 0) {
+      block->wx_start = linear.start_weight * block->wx;
+      block->wv_start = linear.start_weight * block->wv;
+      block->wx *= linear.weight;
+      block->wv *= linear.weight;
+    } else if (matrices_.num_stages() > 1) {
+      block->wx += block->wx_start;
+      block->wv += block->wv_start;
     }
     return true;
   }
 
-  const PassInput& input_;
   ObjectSystem& system_;
-  std::unique_ptr<Integrator> integrator_;
-  BlockSolver solver_;
-  StageLinearization linear_;
-  Eigen::VectorXd v0_;
+  int steps_per_frame_;
+  StageMatrices matrices_;
   std::vector<AdjointBlock> blocks_;
   std::vector<std::pair<int, int>> place_of_row_;  // (block, column in it)
 };
 
 }  // namespace
 
-bool AddAdjointJacobian(const PassInput& input, RowMajorMatrix* jacobian) {
-  if (input.derivatives.empty() || input.system->columns().used().empty()) return true;
-  AdjointSweep sweep(input, static_cast<int>(jacobian->rows()));
-  const int steps_per_frame = input.scene->steps_per_frame;
+bool AddAdjointJacobian(const ObjectRecord& record, const StateDerivatives& derivatives,
+                        RowMajorMatrix* jacobian) {
+  if (derivatives.empty() || record.system->columns().used().empty()) return true;
+  AdjointSweep sweep(record, derivatives, static_cast<int>(jacobian->rows()));
+  const int steps_per_frame = record.scene->steps_per_frame;
   int step = sweep.last_frame() * steps_per_frame;
-  for (auto it = input.derivatives.rbegin(); it != input.derivatives.rend(); ++it) {
+  for (auto it = derivatives.rbegin(); it != derivatives.rend(); ++it) {
     for (; step > (*it)->frame * steps_per_frame; --step) {
       if (!sweep.StepBack(step - 1)) return false;
     }

@@ -7,46 +7,43 @@
 
 namespace dpe {
 
-bool AddObjectGradient(const Scene& scene, const SimulatorOptions& options,
-                       ObjectSystem* system, const ObjectTape& tape,
-                       const Eigen::MatrixXd& dl_dx, const Eigen::MatrixXd& dl_dv,
-                       Eigen::VectorXd* gradient) {
+bool ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl_dx,
+                    const Eigen::MatrixXd& dl_dv, Eigen::VectorXd* gradient) {
+  ObjectSystem* system = record.system;
   const int n = system->num_coordinates();
-  const double h = scene.step_length();
+  const int steps_per_frame = record.scene->steps_per_frame;
   const int last_frame = static_cast<int>(std::max(dl_dx.cols(), dl_dv.cols())) - 1;
-  const std::vector<int>& columns = system->columns().used();
   Eigen::VectorXd gx = Eigen::VectorXd::Zero(n), gv = Eigen::VectorXd::Zero(n);
-  Eigen::VectorXd gp = Eigen::VectorXd::Zero(columns.size());
+  gradient->setZero(system->columns().used().size());
   const auto add_seed = [&](int frame) {
     if (frame < dl_dx.cols()) gx += dl_dx.col(frame);
     if (frame < dl_dv.cols()) gv += dl_dv.col(frame);
   };
   const std::unique_ptr<Integrator> integrator =
-      MakeIntegrator(scene.integration_method, options);
-  Eigen::VectorXd v0(n);
+      MakeIntegrator(record.scene->integration_method, *record.options);
+  StepReader reader(record);
+  StepStates states;
+  const auto& kept = record.tape->solvers;
   add_seed(last_frame);
-  for (int s = last_frame * scene.steps_per_frame - 1; s >= 0; --s) {
-    const StepStates states = StatesOfStep(*system, tape, s, h, &v0);
+  for (int s = last_frame * steps_per_frame - 1; s >= 0; --s) {
+    if (!reader.Read(s, &states)) return false;
     StepSolver* solver = system->solver();
-    if (s < static_cast<int>(tape.solvers.size())) {
-      solver = tape.solvers[s].get();
+    if (s < static_cast<int>(kept.size())) {
+      solver = kept[s].get();
     } else {
       solver->Reset();
     }
     if (!integrator->AdjointStep(system, solver, states,
-                                 {gx.data(), gv.data(), gp.data()})) {
+                                 {gx.data(), gv.data(), gradient->data()})) {
       return false;
     }
-    if (s % scene.steps_per_frame == 0) add_seed(s / scene.steps_per_frame);
+    if (s % steps_per_frame == 0) add_seed(s / steps_per_frame);
   }
   const ParameterColumns& local = system->local_columns();
-  if (local.Has(ParameterKind::kInitialVelocity)) {
-    for (int c = 0; c < n; ++c) {
-      const int column = local.Column(ParameterKind::kInitialVelocity, c);
-      if (column >= 0) gp[column] += gv[c];
-    }
+  for (int c = 0; c < n; ++c) {
+    const int column = local.Column(ParameterKind::kInitialVelocity, c);
+    if (column >= 0) (*gradient)[column] += gv[c];
   }
-  for (size_t k = 0; k < columns.size(); ++k) (*gradient)[columns[k]] += gp[k];
   return true;
 }
 

@@ -4,20 +4,17 @@
 
 #include <Eigen/Core>
 
-#include "dpe/engine/simulator.h"
-#include "object_system.h"
-#include "rollout_tape.h"
+#include "step_reader.h"
 
 namespace dpe {
 
-// gradient (layout order) += dL/dp through one object.
+// dL/dp through one object.
 //
 // @param dl_dx, dl_dv  3N x F; 0 x 0 means no dependence
+// @param gradient      out: one value per system->columns().used()
 // @return false if a step's adjoint system could not be solved
-bool AddObjectGradient(const Scene& scene, const SimulatorOptions& options,
-                       ObjectSystem* system, const ObjectTape& tape,
-                       const Eigen::MatrixXd& dl_dx, const Eigen::MatrixXd& dl_dv,
-                       Eigen::VectorXd* gradient);
+bool ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl_dx,
+                    const Eigen::MatrixXd& dl_dv, Eigen::VectorXd* gradient);
 
 }  // namespace dpe
 

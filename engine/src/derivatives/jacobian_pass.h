@@ -8,30 +8,30 @@
 #include <vector>
 
 #include "dpe/engine/sensitivity.h"
-#include "object_system.h"
-#include "rollout_tape.h"
+#include "step_reader.h"
 
 namespace dpe {
 
-struct PassInput {
-  const Scene* scene;
-  const SimulatorOptions* options;
-  ObjectSystem* system;
-  const ObjectTape* tape;
-  // The derivatives that name this object, sorted by frame.
-  std::vector<const StateDerivative*> derivatives;
-};
+// Derivatives that name one object, sorted by frame.
+using StateDerivatives = std::vector<const StateDerivative*>;
+
+// Tangent columns and adjoint rows that are worked on together: as many as keep a
+// block's sparse products within a second-level cache at a few hundred unknowns, and
+// enough for solves to run at the speed of matrix products.
+constexpr int kPassBlock = 96;
 
 // jacobian (rows x layout columns) += by forward sensitivities. False if a step's
 // system could not be solved.
-bool AddTangentJacobian(const PassInput& input, RowMajorMatrix* jacobian);
+bool AddTangentJacobian(const ObjectRecord& record, const StateDerivatives& derivatives,
+                        RowMajorMatrix* jacobian);
 
 // The same by one backward sweep of a block of adjoint vectors per residual row.
-bool AddAdjointJacobian(const PassInput& input, RowMajorMatrix* jacobian);
+bool AddAdjointJacobian(const ObjectRecord& record, const StateDerivatives& derivatives,
+                        RowMajorMatrix* jacobian);
 
 // The change of the object's states for a change `dp` of the parameters (layout order):
 // dx and dv become 3N x F. False as above.
-bool PropagateTangent(const PassInput& input, const Eigen::VectorXd& dp, int num_frames,
+bool PropagateTangent(const ObjectRecord& record, const Eigen::VectorXd& dp,
                       Eigen::MatrixXd* dx, Eigen::MatrixXd* dv);
 
 }  // namespace dpe

@@ -4,15 +4,11 @@
 #include <atomic>
 
 #include "derivatives/jacobian_pass.h"
-#include "integrators/integrator.h"
-#include "linear/block_solver.h"
-#include "linear/multiply_many.h"
+#include "derivatives/stage_matrices.h"
 #include "parallel.h"
 
 namespace dpe {
 namespace {
-
-constexpr int kBlockColumns = 96;
 
 // Directions [first, first + count) of the seed: dX and dV of all nodes.
 struct TangentBlock {
@@ -25,22 +21,16 @@ struct TangentBlock {
 class TangentSweep {
  public:
   // @param seed  local columns x directions, or null: the identity
-  TangentSweep(const PassInput& input, const Eigen::MatrixXd* seed)
-      : input_(input),
-        system_(*input.system),
-        seed_(seed),
-        integrator_(MakeIntegrator(input.scene->integration_method, *input.options)),
-        solver_(system_.pattern()),
-        v0_(system_.num_coordinates()) {
+  TangentSweep(const ObjectRecord& record, const RowMajorMatrix* seed)
+      : system_(*record.system), seed_(seed), matrices_(record, /*transposed=*/false) {
     const int columns = static_cast<int>(system_.local_columns().used().size());
-    const int directions = seed ? static_cast<int>(seed->cols()) : columns;
-    num_directions_ = directions;
-    for (int first = 0; first < directions; first += kBlockColumns) {
+    num_directions_ = seed ? static_cast<int>(seed->cols()) : columns;
+    for (int first = 0; first < num_directions_; first += kPassBlock) {
       TangentBlock block;
       block.first = first;
-      block.count = std::min(kBlockColumns, directions - first);
+      block.count = std::min(kPassBlock, num_directions_ - first);
       block.dx = RowMajorMatrix::Zero(system_.pattern().num_rows(), block.count);
-      block.dv = block.dx;
+      block.dv = block.dv_next = block.dx;
       SeedInitialVelocity(&block);
       blocks_.push_back(std::move(block));
     }
@@ -50,100 +40,81 @@ class TangentSweep {
 
   // Moves all directions over step `s`. False if its system cannot be solved.
   bool Step(int s) {
-    const StepStates states =
-        StatesOfStep(system_, *input_.tape, s, input_.scene->step_length(), &v0_);
-    const int num_stages = integrator_->num_stages();
+    if (!matrices_.Read(s)) return false;
+    const int num_stages = matrices_.num_stages();
     for (int stage = 0; stage < num_stages; ++stage) {
-      integrator_->TangentStage(stage, &system_, system_.solver(), states, &linear_);
-      if (!SolveStage(/*keep_start=*/stage == 0 && num_stages > 1)) return false;
+      if (!matrices_.Linearize(stage, num_directions_)) return false;
+      const bool keep_start = stage == 0 && num_stages > 1;
+      std::atomic<bool> ok{true};
+      ParallelFor(matrices_.num_threads(), static_cast<int>(blocks_.size()),
+                  [&](int b) {
+                    if (!StepBlock(keep_start, &blocks_[b])) ok = false;
+                  });
+      if (!ok) return false;
     }
     return true;
   }
 
  private:
-  bool SolveStage(bool keep_start) {
-    if (!linear_.a_is_mass &&
-        !solver_.Prepare(system_.solver(), system_.IsSymmetric(), num_directions_)) {
-      return false;
-    }
-    std::atomic<bool> ok{true};
-    const bool serial = !linear_.a_is_mass && !solver_.thread_safe();
-    ParallelFor(serial ? 1 : input_.options->num_threads,
-                static_cast<int>(blocks_.size()), [&](int b) {
-                  TangentBlock& block = blocks_[b];
-                  if (keep_start) {
-                    block.dx_start = block.dx;
-                    block.dv_start = block.dv;
-                  }
-                  CombineInput(&block);
-                  if (!StepBlock(&block)) ok = false;
-                });
-    return ok;
-  }
-
-  // (dx, dv) := the stage's input.
-  void CombineInput(TangentBlock* block) const {
-    if (linear_.start_weight == 0.0) return;
-    block->dx = linear_.weight * block->dx + linear_.start_weight * block->dx_start;
-    block->dv = linear_.weight * block->dv + linear_.start_weight * block->dv_start;
-  }
-
   void SeedInitialVelocity(TangentBlock* block) const {
     const ParameterColumns& local = system_.local_columns();
     if (!local.Has(ParameterKind::kInitialVelocity)) return;
     for (int c = 0; c < system_.num_coordinates(); ++c) {
       const int column = local.Column(ParameterKind::kInitialVelocity, c);
       if (column < 0) continue;
-      AddSeed(column, 1.0, block, &block->dv,
-              3 * system_.node_of_vertex()[c / 3] + c % 3);
+      AddSeed({3 * system_.node_of_vertex()[c / 3] + c % 3, column, 1.0}, *block,
+              &block->dv);
     }
   }
 
-  // target(row, :) += value * seed(column, block).
-  void AddSeed(int column, double value, const TangentBlock* block,
-               RowMajorMatrix* target, int row) const {
+  // target(row, :) += value * seed(column, block), for an entry of B.
+  void AddSeed(const ParameterEntry& e, const TangentBlock& block,
+               RowMajorMatrix* target) const {
     if (seed_ == nullptr) {
-      const int k = column - block->first;
-      if (k >= 0 && k < block->count) (*target)(row, k) += value;
+      const int k = e.column - block.first;
+      if (k >= 0 && k < block.count) (*target)(e.row, k) += e.value;
     } else {
-      target->row(row) +=
-          value * seed_->row(column).segment(block->first, block->count);
+      AddScaled(block.count, e.value, seed_->row(e.column).data() + block.first,
+                target->row(e.row).data());
     }
   }
 
-  bool StepBlock(TangentBlock* block) const {
-    const BlockPattern& pattern = system_.pattern();
-    RowMajorMatrix& next = block->dv_next;
-    next.setZero(block->dv.rows(), block->count);
-    AddMultiplyMany(pattern, linear_.rx.data(), false, block->dx.data(), block->count,
-                    next.data());
-    AddMultiplyMany(pattern, linear_.rv.data(), false, block->dv.data(), block->count,
-                    next.data());
-    for (const ParameterEntry& e : linear_.entries) {
-      const int row = 3 * system_.node_of_vertex()[e.row / 3] + e.row % 3;
-      AddSeed(e.column, e.value, block, &next, row);
+  // target += B seed.
+  void AddParameters(const TangentBlock& block, RowMajorMatrix* target) const {
+    const int only = seed_ == nullptr ? block.first / kPassBlock : 0;
+    const int last = seed_ == nullptr ? only + 1 : matrices_.num_entry_blocks();
+    for (int i = only; i < last; ++i) {
+      for (const ParameterEntry& e : matrices_.entries(i)) AddSeed(e, block, target);
     }
-    if (linear_.a_is_mass) {
-      for (int node = 0; node < pattern.num_nodes(); ++node) {
-        next.middleRows<3>(3 * node) /=
-            system_.parameters().mass[system_.free_vertices()[node]];
-      }
-    } else if (!solver_.Solve(next.data(), block->count, /*transposed=*/false)) {
-      return false;
+  }
+
+  bool StepBlock(bool keep_start, TangentBlock* block) const {
+    const StageLinearization& linear = matrices_.linear();
+    double* dx = block->dx.data();
+    double* dv = block->dv.data();
+    const long size = block->dx.size();
+    if (keep_start) {
+      block->dx_start = block->dx;
+      block->dv_start = block->dv;
     }
-    if (linear_.p != 0.0) block->dx += linear_.p * block->dv;
-    if (linear_.c != 0.0) block->dx += linear_.c * next;
-    block->dv.swap(next);
+    if (linear.start_weight != 0.0) {  // (dx, dv) := the stage's input
+      Combine(size, linear.weight, dx, linear.start_weight, block->dx_start.data(), dx);
+      Combine(size, linear.weight, dv, linear.start_weight, block->dv_start.data(), dv);
+    }
+    double* next = block->dv_next.data();
+    matrices_.rx().Multiply(dx, block->count, 0.0, nullptr, next);
+    matrices_.rv().Multiply(dv, block->count, 1.0, next, next);
+    AddParameters(*block, &block->dv_next);
+    if (!matrices_.Solve(next, block->count)) return false;
+    if (linear.p != 0.0) AddScaled(size, linear.p, dv, dx);
+    if (linear.c != 0.0) AddScaled(size, linear.c, next, dx);
+    block->dv.swap(block->dv_next);
     return true;
   }
 
-  const PassInput& input_;
   ObjectSystem& system_;
-  const Eigen::MatrixXd* seed_;
-  std::unique_ptr<Integrator> integrator_;
-  BlockSolver solver_;
-  StageLinearization linear_;
-  Eigen::VectorXd v0_;
+  const RowMajorMatrix* seed_;
+  StageMatrices matrices_;
   std::vector<TangentBlock> blocks_;
   int num_directions_ = 0;
 };
@@ -152,14 +123,19 @@ class TangentSweep {
 void AddRows(const ObjectSystem& system, const SparseRows& d_state, int first_row,
              const RowMajorMatrix& tangent, int first_column,
              RowMajorMatrix* jacobian) {
-  const std::vector<int>& columns = system.columns().used();
+  const int* columns = system.columns().used().data() + first_column;
+  const int count = static_cast<int>(tangent.cols());
+  const bool is_contiguous = columns[count - 1] - columns[0] == count - 1;
   for (int r = 0; r < d_state.outerSize(); ++r) {
+    double* out = jacobian->row(first_row + r).data();
     for (SparseRows::InnerIterator it(d_state, r); it; ++it) {
       const int node = system.node_of_vertex()[it.col() / 3];
       if (node < 0) continue;
-      const auto row = tangent.row(3 * node + it.col() % 3);
-      for (int k = 0; k < tangent.cols(); ++k) {
-        (*jacobian)(first_row + r, columns[first_column + k]) += it.value() * row[k];
+      const double* row = tangent.row(3 * node + it.col() % 3).data();
+      if (is_contiguous) {
+        AddScaled(count, it.value(), row, out + columns[0]);
+      } else {
+        for (int k = 0; k < count; ++k) out[columns[k]] += it.value() * row[k];
       }
     }
   }
@@ -167,40 +143,43 @@ void AddRows(const ObjectSystem& system, const SparseRows& d_state, int first_ro
 
 }  // namespace
 
-bool AddTangentJacobian(const PassInput& input, RowMajorMatrix* jacobian) {
-  if (input.derivatives.empty() || input.system->columns().used().empty()) return true;
-  TangentSweep sweep(input, nullptr);
-  const int steps_per_frame = input.scene->steps_per_frame;
+bool AddTangentJacobian(const ObjectRecord& record, const StateDerivatives& derivatives,
+                        RowMajorMatrix* jacobian) {
+  if (derivatives.empty() || record.system->columns().used().empty()) return true;
+  TangentSweep sweep(record, nullptr);
+  const int steps_per_frame = record.scene->steps_per_frame;
   int step = 0;
-  for (const StateDerivative* d : input.derivatives) {
+  for (const StateDerivative* d : derivatives) {
     for (; step < d->frame * steps_per_frame; ++step) {
       if (!sweep.Step(step)) return false;
     }
-    ParallelFor(input.options->num_threads, static_cast<int>(sweep.blocks().size()),
+    ParallelFor(record.options->num_threads, static_cast<int>(sweep.blocks().size()),
                 [&](int b) {
                   const TangentBlock& block = sweep.blocks()[b];
-                  AddRows(*input.system, d->d_position, d->first_row, block.dx,
+                  AddRows(*record.system, d->d_position, d->first_row, block.dx,
                           block.first, jacobian);
-                  AddRows(*input.system, d->d_velocity, d->first_row, block.dv,
+                  AddRows(*record.system, d->d_velocity, d->first_row, block.dv,
                           block.first, jacobian);
                 });
   }
   return true;
 }
 
-bool PropagateTangent(const PassInput& input, const Eigen::VectorXd& dp, int num_frames,
+bool PropagateTangent(const ObjectRecord& record, const Eigen::VectorXd& dp,
                       Eigen::MatrixXd* dx, Eigen::MatrixXd* dv) {
-  const ObjectSystem& system = *input.system;
+  const ObjectSystem& system = *record.system;
+  const int num_frames = static_cast<int>(record.positions->cols());
   dx->setZero(system.num_coordinates(), num_frames);
   dv->setZero(system.num_coordinates(), num_frames);
   const std::vector<int>& columns = system.columns().used();
   if (columns.empty()) return true;
-  Eigen::MatrixXd seed(columns.size(), 1);
+  RowMajorMatrix seed(columns.size(), 1);
   for (size_t k = 0; k < columns.size(); ++k) seed(k, 0) = dp[columns[k]];
-  TangentSweep sweep(input, &seed);
+  TangentSweep sweep(record, &seed);
+  const int steps_per_frame = record.scene->steps_per_frame;
   for (int frame = 0; frame < num_frames; ++frame) {
-    for (int s = (frame - 1) * input.scene->steps_per_frame;
-         frame > 0 && s < frame * input.scene->steps_per_frame; ++s) {
+    const int end = frame * steps_per_frame;
+    for (int s = std::max(end - steps_per_frame, 0); s < end; ++s) {
       if (!sweep.Step(s)) return false;
     }
     system.ScatterFree(sweep.blocks()[0].dx.data(), dx->col(frame).data());

@@ -32,6 +32,8 @@ struct StateDerivative {
   SparseRows d_velocity;  // rows x 3N, or 0 x 0 if the rows do not depend on velocity
 };
 
+struct ObjectRecord;
+
 class Sensitivity {
  public:
   // Both must outlive this object; `rollout` must have ended with an ok status and the
@@ -68,6 +70,8 @@ class Sensitivity {
   bool ok() const { return ok_; }
 
  private:
+  ObjectRecord Record(int object) const;
+
   Simulator* simulator_;
   const Rollout* rollout_;
   bool ok_ = true;

@@ -27,10 +27,10 @@ struct SimulatorOptions {
   // Polled once per step if set; returning true ends the rollout with kInterrupted.
   std::function<bool()> interrupted;
 
-  // Run keeps the factorised matrices of steps, which makes derivative passes about
-  // twice as fast, as long as they take no more than this; the passes factorise the
-  // others again.
-  std::size_t factorization_bytes = std::size_t{512} << 20;
+  // What a rollout by Run may keep beyond its trajectory: states between frames and
+  // factorised matrices of steps, which make derivative passes about twice as fast.
+  // What does not fit they make again from the frames, to the same result.
+  std::size_t memory_limit_bytes = std::size_t{2} << 30;
 
   // If set, receives where the time went; must outlive the simulator.
   Timings* timings = nullptr;
@@ -44,7 +44,7 @@ struct SimulatorOptions {
 class RolloutTape;
 class SolverPool;
 
-// A rollout and what its derivative passes need: the state before every step.
+// A rollout and what its derivative passes need beyond the trajectory's frames.
 class Rollout {
  public:
   Rollout();
@@ -54,6 +54,8 @@ class Rollout {
 
   const Trajectory& trajectory() const { return trajectory_; }
   const RolloutStatus& status() const { return trajectory_.status; }
+  // Bytes that it keeps beyond the trajectory, at most the memory limit.
+  std::size_t kept_bytes() const;
   // The parameters it was run with.
   const Eigen::VectorXd& parameters() const { return parameters_; }
 

@@ -1,0 +1,87 @@
+#include "frame_runner.h"
+
+#include <algorithm>
+
+namespace dpe {
+namespace {
+
+// Beyond this a rollout counts as diverged, long before overflow, m.
+constexpr double kMaxCoordinate = 1e12;
+
+bool InRange(const Eigen::Ref<const Eigen::VectorXd>& x) {
+  return x.allFinite() && x.cwiseAbs().maxCoeff() < kMaxCoordinate;
+}
+
+}  // namespace
+
+FrameRunner::FrameRunner(const Scene& scene, const SimulatorOptions& options,
+                         ObjectSystem* system)
+    : scene_(scene),
+      options_(options),
+      system_(system),
+      integrator_(MakeIntegrator(scene.integration_method, options)),
+      v0_(system->num_coordinates()),
+      change_(system->num_coordinates()) {}
+
+StepOutcome FrameRunner::Run(int frame, int num_steps, const FrameTarget& target,
+                             const std::vector<std::unique_ptr<StepSolver>>& kept,
+                             int* failed_step) {
+  InnerStates* inner = target.inner;
+  const int slot = target.inner_frame;
+  if (HasInnerStates()) RestartMemory(target);
+  for (int k = 0; k < num_steps; ++k) {
+    const bool is_last = k == scene_.steps_per_frame - 1;
+    const int s = frame * scene_.steps_per_frame + k;
+    StepResult result;
+    result.x1 = is_last ? target.x1 : inner->x(slot, k + 1);
+    result.v1 = is_last ? target.v1 : inner->v(slot, k + 1);
+    if (num_stages() > 1) {
+      result.xs = inner->xs(slot, k);
+      result.vs = inner->vs(slot, k);
+    }
+    StepSolver* solver =
+        s < static_cast<int>(kept.size()) ? kept[s].get() : system_->solver();
+    const StepOutcome outcome = Step(s, solver, k == 0 ? target.x0 : inner->x(slot, k),
+                                     k == 0 ? target.v0 : inner->v(slot, k), result);
+    if (!outcome.ok()) {
+      *failed_step = k;
+      return outcome;
+    }
+  }
+  return {};
+}
+
+void FrameRunner::RestartMemory(const FrameTarget& target) {
+  if (target.v_before == nullptr) {
+    integrator_->RestartMemory(*system_, nullptr);
+    return;
+  }
+  for (Eigen::Index c = 0; c < change_.size(); ++c) {
+    change_[c] = (target.v0[c] - target.v_before[c]) / scene_.steps_per_frame;
+  }
+  integrator_->RestartMemory(*system_, change_.data());
+}
+
+StepOutcome FrameRunner::Step(int step, StepSolver* solver, const double* x0,
+                              const double* v0, const StepResult& result) {
+  if (options_.interrupted && options_.interrupted()) {
+    return {RolloutStatus::Code::kInterrupted, ""};
+  }
+  const double h = scene_.step_length();
+  const int n = system_->num_coordinates();
+  Eigen::Map<Eigen::VectorXd> x1(result.x1, n), v1(result.v1, n);
+  std::copy_n(x0, n, result.x1);
+  system_->SetPrescribedPositions(step + 1, result.x1);
+  std::copy_n(v0, n, v0_.data());
+  system_->SetPrescribedVelocities(h, x0, result.x1, v0_.data());
+  v1 = v0_;
+  StepOutcome outcome = integrator_->Step(
+      system_, solver, {h, x0, v0_.data(), result.x1, result.v1, result.xs, result.vs},
+      result);
+  if (outcome.ok() && !(InRange(x1) && v1.allFinite())) {
+    outcome.code = RolloutStatus::Code::kNotFinite;
+  }
+  return outcome;
+}
+
+}  // namespace dpe
