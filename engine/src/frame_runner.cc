@@ -24,7 +24,7 @@ FrameRunner::FrameRunner(const Scene& scene, const SimulatorOptions& options,
       change_(system->num_coordinates()) {}
 
 StepOutcome FrameRunner::Run(int frame, int num_steps, const FrameTarget& target,
-                             const std::vector<std::unique_ptr<StepSolver>>& kept,
+                             const std::vector<std::unique_ptr<KeptFactor>>& kept,
                              int* failed_step) {
   InnerStates* inner = target.inner;
   const int slot = target.inner_frame;
@@ -39,13 +39,14 @@ StepOutcome FrameRunner::Run(int frame, int num_steps, const FrameTarget& target
       result.xs = inner->xs(slot, k);
       result.vs = inner->vs(slot, k);
     }
-    StepSolver* solver =
-        s < static_cast<int>(kept.size()) ? kept[s].get() : system_->solver();
-    const StepOutcome outcome = Step(s, solver, k == 0 ? target.x0 : inner->x(slot, k),
+    const StepOutcome outcome = Step(s, k == 0 ? target.x0 : inner->x(slot, k),
                                      k == 0 ? target.v0 : inner->v(slot, k), result);
     if (!outcome.ok()) {
       *failed_step = k;
       return outcome;
+    }
+    if (s < static_cast<int>(kept.size())) {
+      system_->solver()->StoreFactor(kept[s].get());
     }
   }
   return {};
@@ -62,8 +63,8 @@ void FrameRunner::RestartMemory(const FrameTarget& target) {
   integrator_->RestartMemory(*system_, change_.data());
 }
 
-StepOutcome FrameRunner::Step(int step, StepSolver* solver, const double* x0,
-                              const double* v0, const StepResult& result) {
+StepOutcome FrameRunner::Step(int step, const double* x0, const double* v0,
+                              const StepResult& result) {
   if (options_.interrupted && options_.interrupted()) {
     return {RolloutStatus::Code::kInterrupted, ""};
   }
@@ -76,8 +77,8 @@ StepOutcome FrameRunner::Step(int step, StepSolver* solver, const double* x0,
   system_->SetPrescribedVelocities(h, x0, result.x1, v0_.data());
   v1 = v0_;
   StepOutcome outcome = integrator_->Step(
-      system_, solver, {h, x0, v0_.data(), result.x1, result.v1, result.xs, result.vs},
-      result);
+      system_, system_->solver(),
+      {h, x0, v0_.data(), result.x1, result.v1, result.xs, result.vs}, result);
   if (outcome.ok() && !(InRange(x1) && v1.allFinite())) {
     outcome.code = RolloutStatus::Code::kNotFinite;
   }

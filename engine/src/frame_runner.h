@@ -12,6 +12,7 @@
 #include "dpe/engine/simulator.h"
 #include "inner_states.h"
 #include "integrators/integrator.h"
+#include "linear/kept_factor.h"
 #include "object_system.h"
 
 namespace dpe {
@@ -41,17 +42,17 @@ class FrameRunner {
 
   // Takes the first `num_steps` steps from frame `frame` on.
   //
-  // @param kept         solvers of the rollout's first steps; others use the system's
+  // @param kept         where the factorisations of the rollout's first steps go
   // @param failed_step  out: the step within the frame that failed
   StepOutcome Run(int frame, int num_steps, const FrameTarget& target,
-                  const std::vector<std::unique_ptr<StepSolver>>& kept,
+                  const std::vector<std::unique_ptr<KeptFactor>>& kept,
                   int* failed_step);
 
  private:
   // What a step remembers of earlier ones, as a first guess for an iterative solver,
   // must follow from the checkpoints where a pass may begin there.
   void RestartMemory(const FrameTarget& target);
-  StepOutcome Step(int step, StepSolver* solver, const double* x0, const double* v0,
+  StepOutcome Step(int step, const double* x0, const double* v0,
                    const StepResult& result);
 
   const Scene& scene_;

@@ -20,13 +20,13 @@ namespace dpe {
 // What one object would take. 0: the object has none of these.
 struct MemoryDemand {
   std::size_t bytes_per_frame = 0;   // states inside a frame
-  std::size_t bytes_per_solver = 0;  // a factorised step matrix
+  std::size_t bytes_per_factor = 0;  // a factorised step matrix
 };
 
 // What every object keeps.
 struct MemoryPlan {
   int num_inner_frames = 0;  // frames whose inner states are kept
-  int num_solvers = 0;       // steps whose solvers are kept
+  int num_factors = 0;       // steps whose factorisations are kept
 };
 
 // @param num_intervals  frames to step to, the initial one not counted

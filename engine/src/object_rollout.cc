@@ -7,11 +7,12 @@
 namespace dpe {
 namespace {
 
-void KeepSolvers(const MemoryPlan& plan, const ObjectSystem& system, ObjectTape* tape) {
-  if (plan.num_solvers > 0) tape->bytes_per_solver = system.solver_bytes();
-  for (int s = 0; s < plan.num_solvers; ++s) {
-    tape->solvers.push_back(tape->pool->Take(system));
-    tape->solvers.back()->Reset();
+void MakeRoomForFactors(const MemoryPlan& plan, const ObjectSystem& system,
+                        ObjectTape* tape) {
+  if (plan.num_factors > 0) tape->bytes_per_factor = system.factor_bytes();
+  for (int s = 0; s < plan.num_factors; ++s) {
+    tape->factors.push_back(tape->pool->Take());
+    tape->factors.back()->Clear();
   }
 }
 
@@ -23,8 +24,8 @@ MemoryDemand DemandOf(const Scene& scene, const SimulatorOptions& options,
   MemoryDemand demand;
   demand.bytes_per_frame = InnerStates::BytesPerFrame(
       system.num_coordinates(), scene.steps_per_frame, integrator->num_stages());
-  if (integrator->UsesSolver() && system.KeepingSolversPays()) {
-    demand.bytes_per_solver = system.solver_bytes();
+  if (integrator->UsesSolver() && system.KeepingFactorsPays()) {
+    demand.bytes_per_factor = system.factor_bytes();
   }
   return demand;
 }
@@ -40,7 +41,7 @@ RolloutStatus RollOutObject(const Scene& scene, const SimulatorOptions& options,
     tape = &nothing;
   } else {
     tape->inner.Resize(n, k, runner.num_stages(), plan.num_inner_frames);
-    if (runner.UsesSolver()) KeepSolvers(plan, *system, tape);
+    if (runner.UsesSolver()) MakeRoomForFactors(plan, *system, tape);
   }
   InnerStates passing;  // of a frame whose inner states are not kept
   passing.Resize(n, k, runner.num_stages(), 1);
@@ -58,7 +59,7 @@ RolloutStatus RollOutObject(const Scene& scene, const SimulatorOptions& options,
       target.inner = &tape->inner;
       target.inner_frame = f;
     }
-    const StepOutcome outcome = runner.Run(f, k, target, tape->solvers, &status.step);
+    const StepOutcome outcome = runner.Run(f, k, target, tape->factors, &status.step);
     if (!outcome.ok()) {
       status.code = outcome.code;
       status.reason = outcome.reason;

@@ -41,7 +41,7 @@ ObjectSystem::ObjectSystem(const Scene& scene, int object,
   solver_context_->iterative =
       scene.solver == "cg" ||
       (scene.solver == "auto" && PrefersIterativeSolver(pattern_.num_rows()));
-  solver_ = NewSolver();
+  solver_ = std::make_unique<StepSolver>(solver_context_);
 }
 
 // Numbers the unknowns in a fill-reducing order and builds the sparsity of their

@@ -37,15 +37,11 @@ class ObjectSystem {
   const BlockPattern& pattern() const { return pattern_; }
   // Where the diagonal block of each node is.
   const std::vector<BlockSlot>& diagonal() const { return diagonal_; }
-  // A solver for passing use; one that a rollout keeps comes from NewSolver.
   StepSolver* solver() { return solver_.get(); }
-  std::unique_ptr<StepSolver> NewSolver() const {
-    return std::make_unique<StepSolver>(solver_context_);
-  }
-  // Bytes that a kept solver takes.
-  size_t solver_bytes() const { return solver_context_->solver_bytes(IsSymmetric()); }
-  // Whether keeping solvers saves more than the assembly of their matrices.
-  bool KeepingSolversPays() const { return !solver_context_->iterative; }
+  // Bytes of a factorisation that a rollout keeps.
+  size_t factor_bytes() const { return solver_context_->kept_bytes(IsSymmetric()); }
+  // Whether keeping factorisations saves more than the assembly of their matrices.
+  bool KeepingFactorsPays() const { return !solver_context_->iterative; }
 
   const ObjectParameters& parameters() const { return parameters_; }
   // Columns of this object's parameters in the layout, and the same renumbered from 0.

@@ -11,28 +11,29 @@
 #include <vector>
 
 #include "inner_states.h"
-#include "object_system.h"
+#include "linear/kept_factor.h"
 
 namespace dpe {
 
-// Solvers that earlier rollouts of an object have handed back.
-class SolverPool {
+// Factors that earlier rollouts of an object have handed back; their memory serves
+// again.
+class FactorPool {
  public:
-  std::unique_ptr<StepSolver> Take(const ObjectSystem& system) {
+  std::unique_ptr<KeptFactor> Take() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (solvers_.empty()) return system.NewSolver();
-    std::unique_ptr<StepSolver> solver = std::move(solvers_.back());
-    solvers_.pop_back();
-    return solver;
+    if (factors_.empty()) return std::make_unique<KeptFactor>();
+    std::unique_ptr<KeptFactor> factor = std::move(factors_.back());
+    factors_.pop_back();
+    return factor;
   }
-  void Return(std::unique_ptr<StepSolver> solver) {
+  void Return(std::unique_ptr<KeptFactor> factor) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    solvers_.push_back(std::move(solver));
+    factors_.push_back(std::move(factor));
   }
 
  private:
   std::mutex mutex_;
-  std::vector<std::unique_ptr<StepSolver>> solvers_;
+  std::vector<std::unique_ptr<KeptFactor>> factors_;
 };
 
 struct ObjectTape {
@@ -40,17 +41,17 @@ struct ObjectTape {
   ObjectTape(ObjectTape&&) = default;
   ObjectTape& operator=(ObjectTape&&) = default;
   ~ObjectTape() {
-    for (auto& solver : solvers) {
-      if (solver) pool->Return(std::move(solver));
+    for (auto& factor : factors) {
+      if (factor) pool->Return(std::move(factor));
     }
   }
 
   // Of the first frames.
   InnerStates inner;
-  // solvers[s] is the solver of step s as the step left it, of the first steps.
-  std::vector<std::unique_ptr<StepSolver>> solvers;
-  std::size_t bytes_per_solver = 0;
-  std::shared_ptr<SolverPool> pool;
+  // factors[s] is the factorisation that step s made, of the first steps.
+  std::vector<std::unique_ptr<KeptFactor>> factors;
+  std::size_t bytes_per_factor = 0;
+  std::shared_ptr<FactorPool> pool;
 };
 
 class RolloutTape {
@@ -60,7 +61,7 @@ class RolloutTape {
   std::size_t bytes() const {
     std::size_t sum = 0;
     for (const ObjectTape& tape : objects) {
-      sum += tape.inner.bytes() + tape.solvers.size() * tape.bytes_per_solver;
+      sum += tape.inner.bytes() + tape.factors.size() * tape.bytes_per_factor;
     }
     return sum;
   }

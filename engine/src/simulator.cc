@@ -28,7 +28,7 @@ Simulator::Simulator(const Scene& scene, const SimulatorOptions& options)
     systems_.push_back(
         wanted ? std::make_unique<ObjectSystem>(scene_, o, layout_, options.timings)
                : nullptr);
-    solver_pools_.push_back(std::make_shared<SolverPool>());
+    factor_pools_.push_back(std::make_shared<FactorPool>());
   }
 }
 
@@ -64,7 +64,7 @@ Trajectory Simulator::RollOut(int num_frames, RolloutTape* tape) {
     for (auto* states : {&trajectory.positions[o], &trajectory.velocities[o]}) {
       states->setConstant(systems_[o]->num_coordinates(), num_frames, nan);
     }
-    if (tape != nullptr) tape->objects[o].pool = solver_pools_[o];
+    if (tape != nullptr) tape->objects[o].pool = factor_pools_[o];
     statuses[o] = RollOutObject(scene_, options_, o, plan, systems_[o].get(),
                                 tape ? &tape->objects[o] : nullptr, &trajectory);
   });

@@ -23,13 +23,13 @@ bool ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl_dx,
       MakeIntegrator(record.scene->integration_method, *record.options);
   StepReader reader(record);
   StepStates states;
-  const auto& kept = record.tape->solvers;
+  const auto& kept = record.tape->factors;
+  StepSolver* const solver = system->solver();
   add_seed(last_frame);
   for (int s = last_frame * steps_per_frame - 1; s >= 0; --s) {
     if (!reader.Read(s, &states)) return false;
-    StepSolver* solver = system->solver();
     if (s < static_cast<int>(kept.size())) {
-      solver = kept[s].get();
+      solver->UseFactor(kept[s].get(), system->IsSymmetric());
     } else {
       solver->Reset();
     }

@@ -84,8 +84,8 @@ class Integrator {
   virtual StepOutcome Step(ObjectSystem* system, StepSolver* solver,
                            const StepStates& states, const StepResult& result) = 0;
 
-  // Forgets what it remembers of earlier steps, as first guesses of an iterative solver,
-  // so that what follows is a function of the state alone.
+  // Forgets what it remembers of earlier steps, as first guesses of an iterative
+  // solver, so that what follows is a function of the state alone.
   //
   // @param change  3N: about how velocities change over a step; null: not known
   virtual void RestartMemory(const ObjectSystem& /*system*/, const double* /*change*/) {

@@ -59,12 +59,8 @@ bool LinearlyImplicitEuler::AdjointStep(ObjectSystem* system, StepSolver* solver
                                         const StepStates& states,
                                         const StepAdjoint& adjoint) {
   SetMu(*system, states.h, adjoint);
-  // The step was solved with the very matrix that the adjoint needs.
-  if (!solver->factorized()) {
-    AssembleStepMatrix(system, solver, states.x0, states.v0, states.h);
-    if (!solver->Factorize(system->IsSymmetric())) return false;
-  }
-  if (!SolveAdjoint(*system, solver)) return false;
+  AssembleStepMatrix(system, solver, states.x0, states.v0, states.h);
+  if (!PrepareSolver(*system, solver) || !SolveAdjoint(*system, solver)) return false;
   for (int i : system->free_vertices()) {
     for (int c = 3 * i; c < 3 * i + 3; ++c) {
       adjoint.gv[c] = system->parameters().mass[i] * lambda_[c];

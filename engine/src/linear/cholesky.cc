@@ -38,10 +38,6 @@ CholeskyAnalysis::~CholeskyAnalysis() {
   cholmod_finish(&common_);
 }
 
-size_t CholeskyAnalysis::factor_bytes() const {
-  return symbolic_->xsize * sizeof(double);
-}
-
 Cholesky::Cholesky(std::shared_ptr<CholeskyAnalysis> analysis)
     : analysis_(std::move(analysis)) {
   factor_ = cholmod_copy_factor(analysis_->symbolic_, &analysis_->common_);

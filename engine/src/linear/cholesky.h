@@ -25,9 +25,6 @@ class CholeskyAnalysis {
   CholeskyAnalysis(const CholeskyAnalysis&) = delete;
   CholeskyAnalysis& operator=(const CholeskyAnalysis&) = delete;
 
-  // Bytes that the values of one factor take.
-  size_t factor_bytes() const;
-
   // The structure that CHOLMOD found; SupernodalLu uses it too.
   const std::shared_ptr<const SupernodalStructure>& structure() const {
     return structure_;

@@ -29,10 +29,6 @@ const std::shared_ptr<CholeskyAnalysis>& DirectSolverContext::analysis() {
   return analysis_;
 }
 
-size_t DirectSolverContext::factor_bytes(bool symmetric) {
-  return (symmetric ? 1 : 2) * analysis()->factor_bytes();
-}
-
 DirectSolver::DirectSolver(std::shared_ptr<DirectSolverContext> context)
     : context_(std::move(context)), pattern_(context_->pattern) {
   context_->residual.resize(pattern_.num_rows());
@@ -70,15 +66,20 @@ void DirectSolver::Multiply(const std::vector<double>& values, const double* x,
 }
 
 SupernodalFactor DirectSolver::factor() const {
+  if (kind_ == Kind::kKept) return kept_->factor();
   return kind_ == Kind::kCholesky ? cholesky_->factor() : lu_->factor();
 }
 
-void DirectSolver::StoreFactor(KeptFactor* kept) const {
-  if (kind_ == Kind::kCholesky || kind_ == Kind::kLu) {
-    kept->Store(context_->analysis()->structure(), factor());
-  } else {
-    kept->Clear();
+void DirectSolver::StoreFactor(KeptFactor* kept) {
+  kept->Clear();
+  if (kind_ == Kind::kCholesky) {
+    std::swap(kept->cholesky, cholesky_);
+    kept->kind = KeptFactor::Kind::kCholesky;
+  } else if (kind_ == Kind::kLu) {
+    std::swap(kept->lu, lu_);
+    kept->kind = KeptFactor::Kind::kLu;
   }
+  kind_ = Kind::kNone;
 }
 
 void DirectSolver::UseFactor(const KeptFactor* kept, bool symmetric) {
@@ -86,17 +87,6 @@ void DirectSolver::UseFactor(const KeptFactor* kept, bool symmetric) {
   kind_ = Kind::kKept;
   is_exact_ = false;
   symmetric_ = symmetric;
-}
-
-void DirectSolver::Precondition(const double* x, double* y, bool transposed) {
-  std::copy_n(x, pattern_.num_rows(), y);
-  if (kind_ == Kind::kKept) {
-    const SingleFactor f = kept_->factor();
-    SolveSupernodal(transposed ? f.Transposed() : f, &context_->solve_work, y);
-  } else {
-    const SupernodalFactor f = factor();
-    SolveSupernodal(transposed ? f.Transposed() : f, &context_->solve_work, y);
-  }
 }
 
 bool DirectSolver::Solve(const std::vector<double>& values, const double* b, double* z,
@@ -124,8 +114,10 @@ bool DirectSolver::SolveByFactor(const std::vector<double>& values, double* z,
   const int n = pattern_.num_rows();
   const ConstVector right(context_->right.data(), n);
   Vector residual(context_->residual.data(), n);
+  const SupernodalFactor lu = transposed ? factor().Transposed() : factor();
   const auto precondition = [&](const double* x, double* y) {
-    Precondition(x, y, transposed);
+    std::copy_n(x, n, y);
+    SolveSupernodal(lu, &context_->solve_work, y);
   };
   const auto multiply = [&](const double* x, double* y) {
     Multiply(values, x, y, transposed);

@@ -34,8 +34,6 @@ struct DirectSolverContext {
 
   // Made at the first use: large systems may never need it.
   const std::shared_ptr<CholeskyAnalysis>& analysis();
-  // Bytes that a factorised DirectSolver takes.
-  size_t factor_bytes(bool symmetric);
 
   const BlockPattern& pattern;
   std::vector<double> factorization_work, solve_work;
@@ -66,9 +64,10 @@ class DirectSolver {
   bool Solve(const std::vector<double>& values, const double* b, double* z,
              bool transposed, double accuracy = 0.0);
 
-  // Copies the factorisation into `kept`, or clears that if there is none to copy.
-  void StoreFactor(KeptFactor* kept) const;
-  // Goes on with such a copy, of the matrix at hand or a nearby one; it must stay as it
+  // Hands the factorisation over to `kept`, or clears that if there is none to keep.
+  // Then there is none here until the next.
+  void StoreFactor(KeptFactor* kept);
+  // Goes on with such a one, of the matrix at hand or a nearby one; it must stay as it
   // is while it is used.
   void UseFactor(const KeptFactor* kept, bool symmetric);
 
@@ -83,8 +82,6 @@ class DirectSolver {
   void Multiply(const std::vector<double>& values, const double* x, double* y,
                 bool transposed) const;
   SupernodalFactor factor() const;
-  // y := P^{-1} x (P^{-T} x) with the factorisation P.
-  void Precondition(const double* x, double* y, bool transposed);
   // z with a residual as small as it gets; false if it is not small enough.
   bool SolveByFactor(const std::vector<double>& values, double* z, bool transposed,
                      double accuracy);

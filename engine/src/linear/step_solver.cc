@@ -15,10 +15,9 @@ constexpr int kDirectRows = 10000;
 
 bool PrefersIterativeSolver(int num_rows) { return num_rows > kDirectRows; }
 
-size_t StepSolverContext::solver_bytes(bool symmetric) {
-  const size_t values = pattern.num_nonzeros() * sizeof(double);
-  if (iterative) return values + 9 * pattern.num_nodes() * sizeof(double);
-  return values + direct->factor_bytes(symmetric);
+size_t StepSolverContext::kept_bytes(bool symmetric) {
+  const size_t num_values = direct->analysis()->structure()->num_values();
+  return (symmetric ? 1 : 2) * num_values * sizeof(double);
 }
 
 StepSolver::StepSolver(std::shared_ptr<StepSolverContext> context)
@@ -51,12 +50,13 @@ bool StepSolver::KeepFactorization() {
   return direct_.KeepFactorization(values_);
 }
 
-void StepSolver::StoreFactor(KeptFactor* kept) const {
+void StepSolver::StoreFactor(KeptFactor* kept) {
   if (iterative_ || !factorized_) {
     kept->Clear();
   } else {
     direct_.StoreFactor(kept);
   }
+  factorized_ = false;
 }
 
 void StepSolver::UseFactor(const KeptFactor* kept, bool symmetric) {

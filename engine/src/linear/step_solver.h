@@ -24,8 +24,8 @@ struct StepSolverContext {
   explicit StepSolverContext(const BlockPattern& pattern)
       : pattern(pattern), direct(std::make_shared<DirectSolverContext>(pattern)) {}
 
-  // Bytes that a factorised StepSolver takes.
-  size_t solver_bytes(bool symmetric);
+  // Bytes of a KeptFactor.
+  size_t kept_bytes(bool symmetric);
 
   const BlockPattern& pattern;
   std::shared_ptr<DirectSolverContext> direct;
@@ -64,10 +64,10 @@ class StepSolver {
   // False if the matrix cannot be factorised.
   bool KeepFactorization();
 
-  // Copies the factorisation into `kept`; clears that where there is none worth keeping
-  // (the Krylov method's is made anew in no time).
-  void StoreFactor(KeptFactor* kept) const;
-  // Takes such a copy for the factorisation of an earlier, nearby matrix, or of the
+  // Hands the factorisation over to `kept`; clears that where there is none worth
+  // keeping (the Krylov method's is made anew in no time). Then there is none here.
+  void StoreFactor(KeptFactor* kept);
+  // Takes such a one for the factorisation of an earlier, nearby matrix, or of the
   // same: KeepFactorization goes on with it. An empty one is no factorisation. `kept`
   // must stay as it is while it is used.
   void UseFactor(const KeptFactor* kept, bool symmetric);

@@ -11,12 +11,11 @@ constexpr int kWidth = 4;  // columns that a sweep over the rows takes along
 
 // t := the solution with the dense columns of one supernode: t[0, columns) is solved
 // with the triangle, the rows below are lowered by its product.
-template <class Real>
-DPE_ALWAYS_INLINE void Forward(const Real* values, int rows, int columns,
-                               double* __restrict t) {
+DPE_VECTORIZE
+void ForwardDense(const double* values, int rows, int columns, double* __restrict t) {
   for (int j = 0; j < columns; j += kWidth) {
     const int width = std::min(kWidth, columns - j);
-    const Real* l[kWidth];
+    const double* l[kWidth];
     double x[kWidth] = {};
     for (int k = 0; k < kWidth; ++k) {
       l[k] = values + static_cast<long>(j + std::min(k, width - 1)) * rows;
@@ -34,13 +33,12 @@ DPE_ALWAYS_INLINE void Forward(const Real* values, int rows, int columns,
 }
 
 // The same with the transposed columns: t[0, columns) is solved, given the rows below.
-template <class Real>
-DPE_ALWAYS_INLINE void Backward(const Real* values, int rows, int columns,
-                                double* __restrict t) {
+DPE_VECTORIZE
+void BackwardDense(const double* values, int rows, int columns, double* __restrict t) {
   for (int end = columns; end > 0; end -= std::min(kWidth, end)) {
     const int width = std::min(kWidth, end);
     const int j = end - width;
-    const Real* l[kWidth];
+    const double* l[kWidth];
     for (int k = 0; k < kWidth; ++k) {
       l[k] = values + static_cast<long>(j + std::min(k, width - 1)) * rows;
     }
@@ -61,25 +59,10 @@ DPE_ALWAYS_INLINE void Backward(const Real* values, int rows, int columns,
   }
 }
 
-DPE_VECTORIZE
-void ForwardDense(const double* values, int rows, int columns, double* __restrict t) {
-  Forward(values, rows, columns, t);
-}
-DPE_VECTORIZE
-void ForwardDense(const float* values, int rows, int columns, double* __restrict t) {
-  Forward(values, rows, columns, t);
-}
-DPE_VECTORIZE
-void BackwardDense(const double* values, int rows, int columns, double* __restrict t) {
-  Backward(values, rows, columns, t);
-}
-DPE_VECTORIZE
-void BackwardDense(const float* values, int rows, int columns, double* __restrict t) {
-  Backward(values, rows, columns, t);
-}
+}  // namespace
 
-template <class Real>
-void Solve(const SupernodalPanels<Real>& factor, std::vector<double>* work, double* x) {
+void SolveSupernodal(const SupernodalFactor& factor, std::vector<double>* work,
+                     double* x) {
   for (int s = 0; s < factor.num_supernodes; ++s) {
     const int first = factor.first_column[s];
     const int columns = factor.first_column[s + 1] - first;
@@ -105,17 +88,6 @@ void Solve(const SupernodalPanels<Real>& factor, std::vector<double>* work, doub
     BackwardDense(factor.upper + factor.value_start[s], rows, columns, t);
     std::copy_n(t, columns, x + first);
   }
-}
-
-}  // namespace
-
-void SolveSupernodal(const SupernodalFactor& factor, std::vector<double>* work,
-                     double* x) {
-  Solve(factor, work, x);
-}
-
-void SolveSupernodal(const SingleFactor& factor, std::vector<double>* work, double* x) {
-  Solve(factor, work, x);
 }
 
 }  // namespace dpe

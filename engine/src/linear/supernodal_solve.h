@@ -15,32 +15,27 @@ namespace dpe {
 // The arrays of a supernodal factor, see supernodal_structure.h. `lower` holds the
 // panels of L and `upper` those of U^T (for L L^T both are the same), each with its
 // diagonal.
-template <class Real>
-struct SupernodalPanels {
+struct SupernodalFactor {
   int num_supernodes = 0;
   const int* first_column = nullptr;
   const int* row_start = nullptr;
   const int* row_indices = nullptr;
   const size_t* value_start = nullptr;
-  const Real* lower = nullptr;
-  const Real* upper = nullptr;
+  const double* lower = nullptr;
+  const double* upper = nullptr;
 
   // The factor of A^T = U^T L^T.
-  SupernodalPanels Transposed() const {
-    SupernodalPanels transposed = *this;
+  SupernodalFactor Transposed() const {
+    SupernodalFactor transposed = *this;
     transposed.lower = upper;
     transposed.upper = lower;
     return transposed;
   }
 };
-using SupernodalFactor = SupernodalPanels<double>;
-using SingleFactor = SupernodalPanels<float>;  // a preconditioner of half the memory
 
-// x := U^{-1} L^{-1} x, in the factor's own ordering; sums are in double precision for
-// both. `work` is resized as needed.
+// x := U^{-1} L^{-1} x, in the factor's own ordering. `work` is resized as needed.
 void SolveSupernodal(const SupernodalFactor& factor, std::vector<double>* work,
                      double* x);
-void SolveSupernodal(const SingleFactor& factor, std::vector<double>* work, double* x);
 
 // The same for `count` right-hand sides, the columns of a row-major array x.
 void SolveSupernodalMany(const SupernodalFactor& factor, int count,

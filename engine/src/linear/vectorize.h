@@ -14,8 +14,8 @@
 #define DPE_VECTORIZE
 #endif
 
-// For functions (and lambdas) that are inlined into such functions, and so compiled anew
-// for each instruction set.
+// For functions (and lambdas) that are inlined into such functions, and so compiled
+// anew for each instruction set.
 #define DPE_INLINE_LAMBDA __attribute__((always_inline))
 #define DPE_ALWAYS_INLINE inline DPE_INLINE_LAMBDA
 

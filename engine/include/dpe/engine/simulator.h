@@ -42,7 +42,7 @@ struct SimulatorOptions {
 };
 
 class RolloutTape;
-class SolverPool;
+class FactorPool;
 
 // A rollout and what its derivative passes need beyond the trajectory's frames.
 class Rollout {
@@ -118,7 +118,7 @@ class Simulator {
   SimulatorOptions options_;
   ParameterLayout layout_;
   std::vector<std::unique_ptr<ObjectSystem>> systems_;  // null: not simulated
-  std::vector<std::shared_ptr<SolverPool>> solver_pools_;
+  std::vector<std::shared_ptr<FactorPool>> factor_pools_;
 };
 
 }  // namespace dpe
