@@ -5,9 +5,7 @@
 #ifndef DPE_ENGINE_FORCES_VEC3_H_
 #define DPE_ENGINE_FORCES_VEC3_H_
 
-// Inlined even into functions that are compiled for other instructions (vectorize.h).
-#define DPE_INLINE_LAMBDA __attribute__((always_inline))
-#define DPE_ALWAYS_INLINE inline DPE_INLINE_LAMBDA
+#include "linear/vectorize.h"
 
 namespace dpe {
 

@@ -14,4 +14,9 @@
 #define DPE_VECTORIZE
 #endif
 
+// For what such functions call in their loops, so that it is compiled with them: in
+// front of a function, and after the parameters of a lambda.
+#define DPE_INLINE_LAMBDA __attribute__((always_inline))
+#define DPE_ALWAYS_INLINE inline DPE_INLINE_LAMBDA
+
 #endif  // DPE_ENGINE_LINEAR_VECTORIZE_H_
