@@ -60,9 +60,9 @@ FNR == 1 {
   split(FILENAME, part, "/")
   room = part[1]
   is_test = room == "tests"
-  # A unit test sees what its room sees, a benchmark what the engine sees.
+  # A unit test sees what its room sees, and benchmarks measure the engine's parts.
   unit_room = is_test ? part[2] : room
-  if (unit_room == "benchmarks") unit_room = "engine"
+  if (is_test && unit_room == "benchmarks") unit_room = "engine"
   folder = FILENAME
   sub(/\/[^\/]*$/, "", folder)
 }

@@ -73,7 +73,7 @@ void ObjectSystem::AddForceTerms(const Scene& scene, const ClothObject& cloth) {
     if (term.num_elements() == 0) return;
     terms_.push_back(std::make_unique<decltype(term)>(std::move(term)));
   };
-  add(GravityTerm(GravityKernel(cloth, scene.gravity, &parameters_)));
+  add(GravityTerm(cloth, scene.gravity, &parameters_));
   add(SpringTerm(SpringLaw(cloth, &parameters_)));
   if (cloth.drag_coefficient != 0.0 || cloth.estimate_drag) {
     add(DragTerm(DragLaw(cloth, scene.aerodynamics, &parameters_)));

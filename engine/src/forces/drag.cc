@@ -19,12 +19,13 @@ struct Triangle {
   DPE_ALWAYS_INLINE Triangle(const DragLaw::Batch& batch, int lane, const Air& air)
       : e1(batch.q[0].Get(lane)), e2(batch.q[1].Get(lane)), n(Cross(e1, e2)) {
     w = air.wind - kThird * batch.u.Get(lane);
-    // No branches: a collapsed triangle computes with some m, and p = 0 discards it.
-    const double n_squared = Dot(n, n);
-    const double m2 = n_squared > DBL_MIN ? n_squared : DBL_MIN;
-    const double inverse_m2 = 1.0 / m2;
-    power = std::sqrt(m2) * (air.authored + air.unit_normal * inverse_m2);
-    power = m2 > DBL_MIN ? power : 0.0;
+    // No branches: DBL_MIN is lost in the rounding of any n^2 but that of a collapsed
+    // triangle, where it saves the division; `is_open` is then 0, otherwise 1.
+    const double n2 = Dot(n, n);
+    const double m2 = n2 + DBL_MIN;
+    const double is_open = n2 / m2;
+    const double inverse_m2 = is_open / m2;
+    p = is_open * std::sqrt(m2) * (air.authored + air.unit_normal * inverse_m2);
     t = air.sign * inverse_m2;
     q = Dot(n, w);
     zeta = q;
@@ -40,8 +41,8 @@ struct Triangle {
   }
 
   DPE_ALWAYS_INLINE Vec3 Value() const {
-    if constexpr (kDirection) return power * (zeta * n + q * dn);
-    return (power * zeta) * n;
+    if constexpr (kDirection) return p * (zeta * n + q * dn);
+    return (p * zeta) * n;
   }
 
   // dphi/dn / p as zeta I + n b^T + dn g^T.
@@ -61,7 +62,7 @@ struct Triangle {
   }
 
   Vec3 e1, e2, n, w;
-  double power, t, q, zeta;  // p, t, q, zeta
+  double p, t, q, zeta;
   Vec3 de1, de2, dn, dw;
   double r, dq;
 };
@@ -105,12 +106,11 @@ DPE_ALWAYS_INLINE Vec3 TransposeTimes(const Triangle<kDirection>& triangle,
 DPE_VECTORIZE
 void ValueLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air,
                VectorLanes* __restrict phi) {
-  WithFlags({flags.direction, true},
-            [&](auto direction, auto /*velocity*/) DPE_INLINE_LAMBDA {
-              for (int i = 0; i < kBatch; ++i) {
-                phi->Set(i, Triangle<direction>(batch, i, air).Value());
-              }
-            });
+  WithDirection(flags, [&](auto direction) DPE_INLINE_LAMBDA {
+    for (int i = 0; i < kBatch; ++i) {
+      phi->Set(i, Triangle<direction>(batch, i, air).Value());
+    }
+  });
 }
 
 // With F1 = cx dphi/de1, F2 = cx dphi/de2 and W = cv dphi/du = -(cv / 3) dphi/dw, the
@@ -118,16 +118,15 @@ void ValueLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air,
 DPE_VECTORIZE
 void MatrixLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air,
                 JacobianFactors factors, MatrixLanes* __restrict out) {
-  WithFlags({flags.direction, true}, [&](auto direction,
-                                         auto /*velocity*/) DPE_INLINE_LAMBDA {
+  WithDirection(flags, [&](auto direction) DPE_INLINE_LAMBDA {
     for (int i = 0; i < kBatch; ++i) {
       const Triangle<direction> triangle(batch, i, air);
       Vec3 b, g;
       triangle.ExpandNormal(air, &b, &g);
       const auto f1 = OfEdge(triangle, b, g, triangle.e2, triangle.de2);
       const auto f2 = OfEdge(triangle, b, g, triangle.e1, triangle.de1);
-      const double cx = factors.cx * triangle.power;
-      const double cv = -kThird * factors.cv * triangle.power;
+      const double cx = factors.cx * triangle.p;
+      const double cv = -kThird * factors.cv * triangle.p;
       const Vec3 bw = cv * triangle.ExpandVelocity(factors.plain);
       const Vec3 gw = cv * triangle.n;
       const Vec3 c1 = -cx * f1.c, b1 = -cx * f1.b, g1 = -cx * f1.g;
@@ -142,39 +141,34 @@ void MatrixLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air
 DPE_VECTORIZE
 void AdjointLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air,
                  double plain, AdjointLanes<2>* __restrict out) {
-  WithFlags({flags.direction, true},
-            [&](auto direction, auto /*velocity*/) DPE_INLINE_LAMBDA {
-              for (int i = 0; i < kBatch; ++i) {
-                const Triangle<direction> triangle(batch, i, air);
-                const Vec3 s = triangle.power * batch.s.Get(i);
-                Vec3 b, g;
-                triangle.ExpandNormal(air, &b, &g);
-                const auto f1 = OfEdge(triangle, b, g, triangle.e2, triangle.de2);
-                const auto f2 = OfEdge(triangle, b, g, triangle.e1, triangle.de1);
-                out->q[0].Set(i, -1.0 * TransposeTimes(triangle, f1, s));
-                out->q[1].Set(i, TransposeTimes(triangle, f2, s));
-                Vec3 u = Dot(triangle.n, s) * triangle.ExpandVelocity(plain);
-                if constexpr (direction) u = u + Dot(triangle.dn, s) * triangle.n;
-                out->u.Set(i, -kThird * u);
-              }
-            });
+  WithDirection(flags, [&](auto direction) DPE_INLINE_LAMBDA {
+    for (int i = 0; i < kBatch; ++i) {
+      const Triangle<direction> triangle(batch, i, air);
+      const Vec3 s = triangle.p * batch.s.Get(i);
+      Vec3 b, g;
+      triangle.ExpandNormal(air, &b, &g);
+      const auto f1 = OfEdge(triangle, b, g, triangle.e2, triangle.de2);
+      const auto f2 = OfEdge(triangle, b, g, triangle.e1, triangle.de1);
+      out->q[0].Set(i, -1.0 * TransposeTimes(triangle, f1, s));
+      out->q[1].Set(i, TransposeTimes(triangle, f2, s));
+      Vec3 u = Dot(triangle.n, s) * triangle.ExpandVelocity(plain);
+      if constexpr (direction) u = u + Dot(triangle.dn, s) * triangle.n;
+      out->u.Set(i, -kThird * u);
+    }
+  });
 }
 
 // dphi/dC for kappa = 1/6, and dphi/d(wind) for the kappa of the triangle.
 DPE_VECTORIZE
 void ParameterLoop(const DragLaw::Batch& __restrict batch, LoopFlags flags, Air air,
                    double coefficient, VectorLanes* __restrict out) {
-  WithFlags({flags.direction, true}, [&](auto direction,
-                                         auto /*velocity*/) DPE_INLINE_LAMBDA {
+  WithDirection(flags, [&](auto direction) DPE_INLINE_LAMBDA {
     for (int i = 0; i < kBatch; ++i) {
       const Triangle<direction> triangle(batch, i, air);
       out[0].Set(i, triangle.Value());
-      const Vec3 b = (coefficient * triangle.power) * triangle.ExpandVelocity(1.0);
-      Mat3 of_wind = Outer(triangle.n, b);
-      if constexpr (direction) {
-        of_wind =
-            of_wind + Outer((coefficient * triangle.power) * triangle.dn, triangle.n);
-      }
+      const double p = coefficient * triangle.p;
+      Mat3 of_wind = Outer(triangle.n, p * triangle.ExpandVelocity(1.0));
+      if constexpr (direction) of_wind = of_wind + Outer(p * triangle.dn, triangle.n);
       out[1].Set(i, of_wind.x);
       out[2].Set(i, of_wind.y);
       out[3].Set(i, of_wind.z);

@@ -77,23 +77,26 @@ void PadToBatches(std::vector<T>* values) {
   values->resize((values->size() + kBatch - 1) / kBatch * kBatch, last);
 }
 
-// Calls loop(direction, velocity) with the flags as types, so that each combination is
-// compiled on its own.
+// Calls loop(direction), or loop(direction, velocity), with the flags as types, so that
+// each combination is compiled on its own.
+template <class Loop>
+DPE_ALWAYS_INLINE void WithDirection(LoopFlags flags, const Loop& loop) {
+  if (flags.direction) {
+    loop(std::true_type());
+  } else {
+    loop(std::false_type());
+  }
+}
+
 template <class Loop>
 DPE_ALWAYS_INLINE void WithFlags(LoopFlags flags, const Loop& loop) {
-  if (flags.direction) {
+  WithDirection(flags, [&](auto direction) DPE_INLINE_LAMBDA {
     if (flags.velocity) {
-      loop(std::true_type(), std::true_type());
+      loop(direction, std::true_type());
     } else {
-      loop(std::true_type(), std::false_type());
+      loop(direction, std::false_type());
     }
-  } else {
-    if (flags.velocity) {
-      loop(std::false_type(), std::true_type());
-    } else {
-      loop(std::false_type(), std::false_type());
-    }
-  }
+  });
 }
 
 }  // namespace dpe

@@ -133,7 +133,10 @@ class ElementTerm final : public ForceTerm {
       for (int m = 0; m < kCoords; ++m) sq[m] = expansion.dq[m].transpose() * s;
       for (int j = 0; j < kVertices; ++j) {
         Eigen::Map<Eigen::Vector3d> gxj(gx + 3 * vertices[j]);
-        for (int m = 0; m < kCoords; ++m) gxj += Kernel::kPosition[m][j] * sq[m];
+        for (int m = 0; m < kCoords; ++m) {
+          if (Kernel::kPosition[m][j] == 0.0) continue;
+          gxj += Kernel::kPosition[m][j] * sq[m];
+        }
         Eigen::Map<Eigen::Vector3d> gvj(gv + 3 * vertices[j]);
         gvj += Kernel::kVelocity[j] * su;
       }

@@ -1,71 +1,51 @@
 // Gravity and mass damping of a free vertex: F = m g - alpha m v (Rayleigh damping
-// proportional to the current mass). Both are linear, so phi = m g - alpha m (v + dv).
+// proportional to the current mass). Both are linear, so phi = m g - alpha m (v + dv),
+// and the only derivative besides those of the parameters is dphi/dv = df/dv =
+// -alpha m I: diagonal, so that this is a term of its own and not a kernel.
 #ifndef DPE_ENGINE_FORCES_GRAVITY_H_
 #define DPE_ENGINE_FORCES_GRAVITY_H_
 
-#include <array>
+#include <utility>
 #include <vector>
 
 #include "dpe/engine/scene.h"
-#include "forces/element_term.h"
+#include "forces/force_term.h"
 
 namespace dpe {
 
-class GravityKernel {
+class GravityTerm final : public ForceTerm {
  public:
-  static constexpr int kVertices = 1;
-  static constexpr int kCoords = 1;
-  static constexpr double kPosition[1][1] = {{0.0}};  // the same everywhere
-  static constexpr double kVelocity[1] = {1.0};
-  static constexpr double kForce[1] = {1.0};
-
   // Takes the free vertices of `object`.
-  GravityKernel(const ClothObject& object, const Eigen::Vector3d& gravity,
-                const ObjectParameters* parameters)
-      : gravity_(gravity), parameters_(parameters) {
-    for (int i = 0; i < object.num_vertices(); ++i) {
-      if (!object.is_fixed[i]) elements.push_back({i});
-    }
-  }
+  GravityTerm(const ClothObject& object, const Eigen::Vector3d& gravity,
+              const ObjectParameters* parameters);
 
-  void Value(int e, const ElementInput<1>& in, Eigen::Vector3d* phi) const {
-    *phi = Mass(e) * PerMass(in);
-  }
+  int num_elements() const { return static_cast<int>(vertices_.size()); }
 
-  void Expand(int e, const ElementInput<1>& /*in*/, Expansion<1>* out) const {
-    out->dq[0].setZero();
-    out->plain_du = Eigen::Matrix3d::Identity() * (-parameters_->damping * Mass(e));
-    out->du = out->plain_du;
-  }
-
-  bool OwnsAny(const ParameterSink& sink) const {
-    return sink.Wants(ParameterKind::kMass) || sink.Wants(ParameterKind::kDamping);
-  }
-
-  template <class Report>
-  void Parameters(int e, const ElementInput<1>& in, const Report& report) const {
-    report(ParameterKind::kMass, elements[e][0], PerMass(in));
-    report(ParameterKind::kDamping, 0, Eigen::Vector3d(-Mass(e) * Velocity(in)));
-  }
-
-  bool IsSymmetric() const { return true; }
-
-  std::vector<std::array<int, 1>> elements;
+  void AppendCouplings(std::vector<std::pair<int, int>>* /*pairs*/) const override {}
+  void BindPattern(const BlockPattern& pattern,
+                   const std::vector<int>& node_of_vertex) override;
+  void AddForce(const ForceState& state, double* force) const override;
+  void AddJacobian(const ForceState& state, double cx, double cv, VelocityPart part,
+                   double* values) const override;
+  void AddAdjoint(const ForceState& state, const double* lambda, double c,
+                  VelocityPart part, double* gx, double* gv) const override;
+  void VisitParameters(const ForceState& state, ParameterSink* sink) const override;
 
  private:
-  double Mass(int e) const { return parameters_->mass[elements[e][0]]; }
-  Eigen::Vector3d PerMass(const ElementInput<1>& in) const {
-    return gravity_ - parameters_->damping * Velocity(in);
+  // Component k of v + dv.
+  static double Velocity(const ForceState& state, int k) {
+    return state.dv != nullptr ? state.v[k] + state.dv[k] : state.v[k];
   }
-  static Eigen::Vector3d Velocity(const ElementInput<1>& in) {
-    return in.has_direction ? Eigen::Vector3d(in.u + in.du) : in.u;
+  // The factor by which m enters `part` of dphi/dv.
+  double Rate(VelocityPart part) const {
+    return -parameters_->damping * PlainWeight(part);
   }
 
-  Eigen::Vector3d gravity_;  // m/s^2
+  std::vector<int> vertices_;
+  std::vector<BlockSlot> slots_;  // diagonal blocks
+  Eigen::Vector3d gravity_;       // m/s^2
   const ObjectParameters* parameters_;
 };
-
-using GravityTerm = ElementTerm<GravityKernel>;
 
 }  // namespace dpe
 

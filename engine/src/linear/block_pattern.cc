@@ -2,7 +2,88 @@
 
 #include <algorithm>
 
+#include "linear/vectorize.h"
+
 namespace dpe {
+namespace {
+
+// Three numbers as a pair and a single one: what fits a block without reading past it.
+typedef double Pair __attribute__((vector_size(16)));
+struct Triple {
+  Pair pair;
+  double single;
+};
+
+DPE_ALWAYS_INLINE Triple Load(const double* from) {
+  Triple a;
+  __builtin_memcpy(&a.pair, from, sizeof(Pair));
+  a.single = from[2];
+  return a;
+}
+
+DPE_ALWAYS_INLINE void Store(const Triple& a, double* to) {
+  __builtin_memcpy(to, &a.pair, sizeof(Pair));
+  to[2] = a.single;
+}
+
+DPE_ALWAYS_INLINE double Sum(const Triple& a) {
+  return a.pair[0] + a.pair[1] + a.single;
+}
+
+// sum += a b, entry by entry.
+DPE_ALWAYS_INLINE void AddProduct(const Triple& a, const Triple& b, Triple* sum) {
+  sum->pair += a.pair * b.pair;
+  sum->single += a.single * b.single;
+}
+
+// y += A x.
+DPE_VECTORIZE
+void AddColumns(int num_nodes, const int* starts, const int* rows, const double* values,
+                const double* x, double* y) {
+  for (int j = 0; j < num_nodes; ++j) {
+    const long stride = 3L * (starts[j + 1] - starts[j]);
+    const double x0 = x[3 * j], x1 = x[3 * j + 1], x2 = x[3 * j + 2];
+    const Triple t0{{x0, x0}, x0}, t1{{x1, x1}, x1}, t2{{x2, x2}, x2};
+    const double* column = values + 9L * starts[j];
+    for (int k = starts[j]; k < starts[j + 1]; ++k, column += 3) {
+      double* out = y + 3L * rows[k];
+      Triple sum = Load(out);
+      AddProduct(Load(column), t0, &sum);
+      AddProduct(Load(column + stride), t1, &sum);
+      AddProduct(Load(column + 2 * stride), t2, &sum);
+      Store(sum, out);
+    }
+  }
+}
+
+// y = A^T x.
+DPE_VECTORIZE
+void DotColumns(int num_nodes, const int* starts, const int* rows, const double* values,
+                const double* x, double* y) {
+  for (int j = 0; j < num_nodes; ++j) {
+    const long stride = 3L * (starts[j + 1] - starts[j]);
+    const double* column = values + 9L * starts[j];
+    Triple sums[2][3] =
+        {};  // of even and odd blocks, which need not wait for each other
+    int k = starts[j];
+    for (; k + 1 < starts[j + 1]; k += 2, column += 6) {
+      const Triple even = Load(x + 3L * rows[k]), odd = Load(x + 3L * rows[k + 1]);
+      for (int c = 0; c < 3; ++c) {
+        AddProduct(Load(column + c * stride), even, &sums[0][c]);
+        AddProduct(Load(column + c * stride + 3), odd, &sums[1][c]);
+      }
+    }
+    if (k < starts[j + 1]) {
+      const Triple last = Load(x + 3L * rows[k]);
+      for (int c = 0; c < 3; ++c) {
+        AddProduct(Load(column + c * stride), last, &sums[0][c]);
+      }
+    }
+    for (int c = 0; c < 3; ++c) y[3 * j + c] = Sum(sums[0][c]) + Sum(sums[1][c]);
+  }
+}
+
+}  // namespace
 
 BlockPattern::BlockPattern(int num_nodes,
                            const std::vector<std::pair<int, int>>& couplings)
@@ -68,38 +149,12 @@ BlockSlot BlockPattern::Find(int row_node, int col_node) const {
 
 void BlockPattern::Multiply(const double* values, const double* x, double* y) const {
   std::fill(y, y + num_rows(), 0.0);
-  for (int j = 0; j < num_nodes_; ++j) {
-    const int count = block_starts_[j + 1] - block_starts_[j];
-    const int* rows = block_rows_.data() + block_starts_[j];
-    const double* column = values + 9 * block_starts_[j];
-    const int stride = 3 * count;
-    const double x0 = x[3 * j], x1 = x[3 * j + 1], x2 = x[3 * j + 2];
-    for (int k = 0; k < count; ++k, column += 3) {
-      double* out = y + 3 * rows[k];
-      for (int r = 0; r < 3; ++r) {
-        out[r] +=
-            column[r] * x0 + column[stride + r] * x1 + column[2 * stride + r] * x2;
-      }
-    }
-  }
+  AddColumns(num_nodes_, block_starts_.data(), block_rows_.data(), values, x, y);
 }
 
 void BlockPattern::MultiplyTransposed(const double* values, const double* x,
                                       double* y) const {
-  for (int j = 0; j < num_nodes_; ++j) {
-    const int count = block_starts_[j + 1] - block_starts_[j];
-    const int* rows = block_rows_.data() + block_starts_[j];
-    for (int c = 0; c < 3; ++c) {
-      const double* column = values + 9 * block_starts_[j] + 3 * count * c;
-      double sum = 0.0;
-      for (int k = 0; k < count; ++k) {
-        const double* in = x + 3 * rows[k];
-        sum += column[3 * k] * in[0] + column[3 * k + 1] * in[1] +
-               column[3 * k + 2] * in[2];
-      }
-      y[3 * j + c] = sum;
-    }
-  }
+  DotColumns(num_nodes_, block_starts_.data(), block_rows_.data(), values, x, y);
 }
 
 }  // namespace dpe

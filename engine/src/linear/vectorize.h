@@ -14,8 +14,8 @@
 #define DPE_VECTORIZE
 #endif
 
-// For functions (and lambdas) that are inlined into such functions, and so compiled
-// anew for each instruction set.
+// For what such functions call in their loops, so that it is compiled with them: in
+// front of a function, and after the parameters of a lambda.
 #define DPE_INLINE_LAMBDA __attribute__((always_inline))
 #define DPE_ALWAYS_INLINE inline DPE_INLINE_LAMBDA
 
