@@ -149,7 +149,7 @@ int ExitCode(Termination termination) {
 
 int Main() {
   EstimationJob job = JobFromFlags();
-  SetBlasThreads(FLAGS_threads);
+  UseOneBlasThread();
   const EstimationInput input = LoadEstimationInput(job);
   for (const std::string& warning : input.warnings) {
     std::cerr << "estimate_cloth: warning: " << warning << "\n";

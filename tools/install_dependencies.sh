@@ -21,11 +21,12 @@ fail() {
 apt_packages="g++ cmake make git pkg-config ccache libceres-dev libsuitesparse-dev
   libeigen3-dev libgoogle-glog-dev libgflags-dev nlohmann-json3-dev
   libopenblas-pthread-dev libtinyobjloader-dev"
-apt_test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format"
+apt_test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format valgrind"
 dnf_packages="gcc-c++ cmake make git pkgconf-pkg-config ccache ceres-solver-devel
   suitesparse-devel eigen3-devel glog-devel gflags-devel json-devel openblas-devel
   tinyobjloader-devel"
-dnf_test_packages="gtest-devel gmock-devel google-benchmark-devel clang-tools-extra"
+dnf_test_packages="gtest-devel gmock-devel google-benchmark-devel clang-tools-extra
+  valgrind"
 brew_packages="cmake git pkg-config ccache ceres-solver suite-sparse eigen glog gflags
   nlohmann-json openblas tinyobjloader"
 brew_test_packages="googletest google-benchmark clang-format"

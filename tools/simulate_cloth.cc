@@ -83,7 +83,7 @@ Scene SceneFromFlags() {
 
 int Main() {
   const Scene scene = SceneFromFlags();
-  SetBlasThreads(FLAGS_threads);
+  UseOneBlasThread();
   SimulatorOptions options;
   options.num_threads = FLAGS_threads;
   const int frames = FLAGS_frames > 0 ? FLAGS_frames : scene.num_frames;

@@ -7,7 +7,8 @@ namespace dpe {
 namespace {
 
 constexpr const char* kNames[Timings::kNumParts] = {
-    "forces", "assembly", "factorisation", "solve", "derivative passes"};
+    "forces", "assembly",          "factorisation",
+    "solve",  "derivative passes", "least squares"};
 
 void AppendLine(const char* name, double seconds, double total, long calls,
                 std::string* table) {

@@ -2,7 +2,10 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace dpe {
@@ -100,8 +103,7 @@ OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
   ceres::Solver::Options solver;
   solver.minimizer_type = ceres::TRUST_REGION;
   solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
-  // QR does not square the condition number, and LAPACK's is several times faster than
-  // Ceres's own product J^T J (which is compiled without vector instructions).
+  // QR does not square the condition number, as normal equations would.
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.dense_linear_algebra_library_type = ceres::LAPACK;
   solver.max_num_iterations = MaxIterations(*context, kDefaultLmIterations);
@@ -117,7 +119,16 @@ OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
   ProgressCallback callback(context);
   solver.callbacks.push_back(&callback);
   ceres::Solver::Summary summary;
-  ceres::Solve(solver, context->problem->least_squares(), &summary);
+  const std::unique_ptr<ceres::Problem> reduced =
+      context->problem->NewReducedLeastSquares();
+  ceres::Solve(solver, reduced ? reduced.get() : context->problem->least_squares(),
+               &summary);
+  if (options.timings != nullptr) {
+    options.timings->Add(
+        TimedPart::kLeastSquares,
+        std::chrono::nanoseconds(
+            std::llround(1e9 * std::max(0.0, summary.linear_solver_time_in_seconds))));
+  }
   RestoreBest(context->problem);
   return Explain(*context, summary.termination_type, summary.message);
 }

@@ -131,14 +131,17 @@ bool TrajectoryEvaluator::EvaluateJacobian() {
   if (!ok_) return false;
   if (jacobian_is_current_) return true;
   Sensitivity sensitivity(&simulator_, &rollout_);
+  jacobian_.resize(0, 0);  // two of them need not fit into memory
   jacobian_ =
       sensitivity.Jacobian(StateDerivatives(), num_residuals(), options_.jacobian);
   ++num_derivative_passes_;
   const Eigen::VectorXd scale = map_.Derivative(coordinates_);
+  bool is_finite = true;
   for (int row = 0; row < jacobian_.rows(); ++row) {
     jacobian_.row(row).array() *= scale.transpose().array();
+    is_finite &= jacobian_.row(row).allFinite();
   }
-  if (!sensitivity.ok() || !jacobian_.allFinite()) {
+  if (!sensitivity.ok() || !is_finite) {
     message_ = "the derivative of the rollout could not be computed";
     return false;
   }

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "reduced_problem.h"
+
 namespace dpe {
 
 // Copies one cost's rows of the last evaluation.
@@ -118,6 +120,11 @@ bool TrajectoryProblem::StepIsTooLong() const {
     }
   }
   return false;
+}
+
+std::unique_ptr<ceres::Problem> TrajectoryProblem::NewReducedLeastSquares() {
+  const TrajectoryEvaluatorOptions& options = evaluator_.options();
+  return NewReducedProblem(&least_squares_, this, options.num_threads, options.timings);
 }
 
 ceres::FirstOrderFunction* TrajectoryProblem::NewFirstOrderFunction() {

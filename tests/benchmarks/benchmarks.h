@@ -8,9 +8,12 @@
 namespace dpe::bench {
 
 void RegisterForces();
+void RegisterMachine();
 void RegisterForward();
 void RegisterGradient();
+void RegisterMemory();
 void RegisterJacobian();
+void RegisterLmIteration();
 void RegisterEstimation();
 
 }  // namespace dpe::bench

@@ -7,9 +7,12 @@
 
 int main(int argc, char** argv) {
   dpe::bench::RegisterForces();
+  dpe::bench::RegisterMachine();
   dpe::bench::RegisterForward();
   dpe::bench::RegisterGradient();
+  dpe::bench::RegisterMemory();
   dpe::bench::RegisterJacobian();
+  dpe::bench::RegisterLmIteration();
   dpe::bench::RegisterEstimation();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

@@ -5,8 +5,8 @@ extern "C" void openblas_set_num_threads(int num_threads) __attribute__((weak));
 
 namespace dpe::tools {
 
-void SetBlasThreads(int num_threads) {
-  if (openblas_set_num_threads != nullptr) openblas_set_num_threads(num_threads);
+void UseOneBlasThread() {
+  if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
 }
 
 }  // namespace dpe::tools

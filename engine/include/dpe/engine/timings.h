@@ -15,13 +15,14 @@ enum class TimedPart {
   kFactorization,  // factorising them
   kSolve,          // solving with them
   kDerivatives,    // gradient, tangent and adjoint passes, all they contain
+  kLeastSquares,   // linear algebra of a least-squares optimiser
 };
 
 // Adds up wall-clock time per part; parts do not overlap. Rollouts of several objects
 // on several threads add their own times.
 class Timings {
  public:
-  static constexpr int kNumParts = 5;
+  static constexpr int kNumParts = 6;
 
   void Add(TimedPart part, std::chrono::nanoseconds time) {
     nanoseconds_[static_cast<int>(part)] += time.count();

@@ -57,7 +57,8 @@ struct EstimatorOptions {
   int num_frames = 0;  // frames to fit; <= 0: as many as were observed
 
   // SolverType::kAuto takes LM as long as its dense Jacobian (8 bytes x residuals x
-  // parameters; Ceres keeps about three copies) is not larger than this, else L-BFGS.
+  // parameters; beside it LM keeps some twenty matrices of parameters x parameters)
+  // is not larger than this, else L-BFGS.
   double max_lm_jacobian_bytes = 1e9;
 
   // The fit stops as converged when the RMS has fallen below this (m): beneath it there

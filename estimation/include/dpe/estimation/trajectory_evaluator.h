@@ -38,6 +38,7 @@ class TrajectoryEvaluator {
   TrajectoryEvaluator(const Scene& scene, TrajectoryCosts costs,
                       const TrajectoryEvaluatorOptions& options = {});
 
+  const TrajectoryEvaluatorOptions& options() const { return options_; }
   const ParameterLayout& layout() const { return simulator_.layout(); }
   const ParameterMap& map() const { return map_; }
   const TrajectoryCosts& costs() const { return costs_; }

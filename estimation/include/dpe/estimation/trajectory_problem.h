@@ -46,6 +46,14 @@ class TrajectoryProblem : private ceres::EvaluationCallback {
   // problem without its callback.
   ceres::Problem* least_squares() { return &least_squares_; }
 
+  // The same problem, with further residual blocks as they stand at the call, losses,
+  // bounds and manifolds, rotated into one residual more than it has parameters: cost,
+  // gradient and J^T J are the same and an optimiser takes the same steps, but one that
+  // factorises J for every step, as DENSE_QR does, takes far less time and memory. Null
+  // if there are no more residuals than parameters. Must not outlive this; a residual
+  // by itself means nothing.
+  std::unique_ptr<ceres::Problem> NewReducedLeastSquares();
+
   // The same cost as one scalar function of all coordinates with its adjoint gradient;
   // the caller (or a ceres::GradientProblem) owns it, and it must not outlive this.
   ceres::FirstOrderFunction* NewFirstOrderFunction();
