@@ -53,7 +53,7 @@ struct ElementBatch {
   VectorLanes u;                                           // m/s
   VectorLanes dq[kCoords];
   VectorLanes du;
-  VectorLanes s;  // sum over vertices of kForce lambda
+  VectorLanes s;  // c times the sum over vertices of kForce lambda
 };
 
 // dphi/dq^T s and dphi/du^T s.

@@ -1,4 +1,4 @@
-// Assembly over elements, written once for all force laws.
+// Assembly over elements, written once for all kernels.
 //
 // A kernel describes one element through reduced coordinates: kCoords position vectors
 // q_m = sum_j kPosition[m][j] x_j, one velocity u = sum_j kVelocity[j] v_j, and one
