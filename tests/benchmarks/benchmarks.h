@@ -7,9 +7,12 @@
 
 namespace dpe::bench {
 
+void RegisterMachine();
 void RegisterForward();
 void RegisterGradient();
+void RegisterMemory();
 void RegisterJacobian();
+void RegisterLmIteration();
 void RegisterEstimation();
 
 }  // namespace dpe::bench

@@ -7,13 +7,9 @@ Scene MakeScene(const Case& c) {
   options.rows = options.cols = c.plan.size;
   Scene scene = MakePresetScene(c.preset, options);
   scene.integration_method = c.method;
+  scene.solver = c.solver;
+  scene.tolerance = kTolerance;
   return scene;
-}
-
-SimulatorOptions MakeOptions() {
-  SimulatorOptions options;
-  options.newton_tolerance = kNewtonTolerance;
-  return options;
 }
 
 namespace {
@@ -28,7 +24,7 @@ bool IsSlow(const Case& c) {
 }  // namespace
 
 std::string CaseName(const std::string& what, const Case& c) {
-  return what + "/" + c.preset_name +
+  return what + "/" + c.preset_name + "/" + c.solver +
          "/method:" + std::to_string(static_cast<int>(c.method)) +
          "/grid:" + std::to_string(c.plan.size) + (IsSlow(c) ? "/slow:1" : "");
 }

@@ -7,7 +7,6 @@
 
 #include "dpe/engine/cloth_builder.h"
 #include "dpe/engine/scene.h"
-#include "dpe/engine/simulator.h"
 
 namespace dpe::bench {
 
@@ -19,7 +18,7 @@ constexpr IntegrationMethod kMethods[] = {
 };
 
 // A square grid of `size` x `size` vertices and how much of it to simulate: fewer
-// frames of larger cloths, so that a run of everything stays below four minutes.
+// frames of larger cloths, so that a run of everything stays a matter of minutes.
 struct GridPlan {
   int size;
   int num_frames;    // the initial state included, as everywhere
@@ -30,26 +29,26 @@ constexpr GridPlan kGrids[] = {
     {12, 100, 2}, {24, 51, 1}, {48, 16, 1}, {96, 6, 1}, {192, 3, 1},
 };
 
-// Where Newton's method stops, see SimulatorOptions. The default of 1e-13 is below what
-// rounding leaves of the residual from 24 x 24 vertices on, and method 3 then fails.
-constexpr double kNewtonTolerance = 1e-11;
+// The linear solvers that a scene can name: "cholesky" solves to rounding whatever the
+// scene's tolerance, "cg" to that tolerance, "auto" is the engine's choice.
+constexpr const char* kSolvers[] = {"cholesky", "cg", "auto"};
+constexpr double kTolerance = 1e-5;
 
 struct Case {
   ScenePreset preset = ScenePreset::kSide;
   std::string preset_name = "side";
   IntegrationMethod method = IntegrationMethod::kLinearlyImplicitEuler;
   GridPlan plan = kGrids[0];
+  std::string solver = "auto";
 };
 
 // The preset's cloth of 7 m on the case's grid; every stiffness is to be estimated
 // (nL).
 Scene MakeScene(const Case& c);
 
-// The options of every simulator here.
-SimulatorOptions MakeOptions();
-
-// "<what>/<preset>/method:<number>/grid:<size>", which table.py takes apart again; with
-// "/slow:1" at its end for cases that take half a minute or more, see README.md.
+// "<what>/<preset>/<solver>/method:<number>/grid:<size>", which table.py takes apart
+// again; with "/slow:1" at its end for cases that take half a minute or more, see
+// README.md.
 std::string CaseName(const std::string& what, const Case& c);
 
 }  // namespace dpe::bench

@@ -4,7 +4,6 @@
 #include <limits>
 #include <new>
 
-#include "dpe/engine/simulator.h"
 #include "resource_usage.h"
 
 // CHOLMOD's OpenMP runtime, if it has one: its parallel regions, one per supernode,
@@ -63,17 +62,6 @@ double CholeskyFloor::Milliseconds(double seconds) {
     ++count;
   }
   return 1e3 * (CpuSeconds() - start) / count;
-}
-
-SymmetricMatrix StepMatrix(Case c) {
-  c.method = IntegrationMethod::kLinearlyImplicitEuler;
-  Scene scene = MakeScene(c);
-  scene.solver = "cholesky";  // also where "auto" would iterate
-  Simulator simulator(scene, MakeOptions());
-  const int step = (c.plan.num_frames - 1) / 2;
-  const FactorizationWatch watch(step);
-  simulator.Simulate(step + 2);
-  return watch.matrix();
 }
 
 }  // namespace dpe::bench

@@ -4,8 +4,7 @@
 
 #include <cholmod.h>
 
-#include "cases.h"
-#include "factorization_watch.h"
+#include "step_matrix.h"
 
 namespace dpe::bench {
 
@@ -37,11 +36,6 @@ class CholeskyFloor {
   cholmod_dense* work_y_ = nullptr;
   cholmod_dense* work_e_ = nullptr;
 };
-
-// The matrix of the case's scene by method 2, half way through the case's rollout: the
-// other methods' matrices have the same pattern, so their floor per system is the same.
-// Without columns if the engine does not use CHOLMOD for it.
-SymmetricMatrix StepMatrix(Case c);
 
 }  // namespace dpe::bench
 

@@ -8,7 +8,7 @@
 #include "cases.h"
 #include "cholesky_floor.h"
 #include "dpe/engine/simulator.h"
-#include "factorization_watch.h"
+#include "dpe/engine/timings.h"
 #include "resource_usage.h"
 
 namespace dpe::bench {
@@ -31,8 +31,10 @@ CholeskyFloor* FloorOf(const Case& c) {
 
 void Forward(benchmark::State& state, const Case& c) {
   CholeskyFloor* const floor = FloorOf(c);
-  Simulator simulator(MakeScene(c), MakeOptions());
-  const FactorizationWatch watch;
+  Timings timings;
+  SimulatorOptions options;
+  options.timings = &timings;
+  Simulator simulator(MakeScene(c), options);
   const double start = CpuSeconds();
   for (auto _ : state) {
     const Trajectory trajectory = simulator.Simulate(c.plan.num_frames);
@@ -46,7 +48,8 @@ void Forward(benchmark::State& state, const Case& c) {
   const double milliseconds = 1e3 * (CpuSeconds() - start) / num_frames;
   state.counters["ms_per_frame"] = milliseconds;
   state.counters["vertices"] = c.plan.size * c.plan.size;
-  state.counters["factorizations_per_frame"] = watch.count() / num_frames;
+  state.counters["factorizations_per_frame"] =
+      timings.Calls(TimedPart::kFactorization) / num_frames;
   if (floor == nullptr) return;
   const double floor_ms = floor->Milliseconds(0.15);
   state.counters["floor_ms"] = floor_ms;
@@ -56,13 +59,16 @@ void Forward(benchmark::State& state, const Case& c) {
 
 void RegisterPreset(ScenePreset preset, const std::string& name) {
   for (const GridPlan& plan : kGrids) {
-    for (IntegrationMethod method : kMethods) {
-      const Case c{preset, name, method, plan};
-      benchmark::RegisterBenchmark(CaseName("forward", c).c_str(),
-                                   [c](benchmark::State& state) { Forward(state, c); })
-          ->Unit(benchmark::kMillisecond)
-          ->MeasureProcessCPUTime()
-          ->Iterations(plan.num_rollouts);
+    for (const char* solver : kSolvers) {
+      for (IntegrationMethod method : kMethods) {
+        const Case c{preset, name, method, plan, solver};
+        benchmark::RegisterBenchmark(
+            CaseName("forward", c).c_str(),
+            [c](benchmark::State& state) { Forward(state, c); })
+            ->Unit(benchmark::kMillisecond)
+            ->MeasureProcessCPUTime()
+            ->Iterations(plan.num_rollouts);
+      }
     }
   }
 }

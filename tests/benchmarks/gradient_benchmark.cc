@@ -32,7 +32,7 @@ bool AddGradientTimes(const GridPlan& plan, Simulator* simulator,
 void Gradient(benchmark::State& state, const Case& c) {
   const MemoryPeak memory;
   const Scene scene = MakeScene(c);
-  Simulator simulator(scene, MakeOptions());
+  Simulator simulator(scene);
   const Eigen::VectorXd parameters = simulator.layout().Extract(scene);
   GradientTimes times;
   for (auto _ : state) {
@@ -56,13 +56,16 @@ void Gradient(benchmark::State& state, const Case& c) {
 
 void RegisterGradient() {
   for (const GridPlan& plan : kGrids) {
-    for (IntegrationMethod method : kMethods) {
-      const Case c{ScenePreset::kSide, "side", method, plan};
-      benchmark::RegisterBenchmark(CaseName("gradient", c).c_str(),
-                                   [c](benchmark::State& state) { Gradient(state, c); })
-          ->Unit(benchmark::kMillisecond)
-          ->MeasureProcessCPUTime()
-          ->Iterations(plan.num_rollouts);
+    for (const char* solver : kSolvers) {
+      for (IntegrationMethod method : kMethods) {
+        const Case c{ScenePreset::kSide, "side", method, plan, solver};
+        benchmark::RegisterBenchmark(
+            CaseName("gradient", c).c_str(),
+            [c](benchmark::State& state) { Gradient(state, c); })
+            ->Unit(benchmark::kMillisecond)
+            ->MeasureProcessCPUTime()
+            ->Iterations(plan.num_rollouts);
+      }
     }
   }
 }

@@ -57,7 +57,7 @@ std::vector<StateDerivative> ObserveAllPositions(int num_coordinates, int num_fr
 void Jacobian(benchmark::State& state, const Case& c, const JacobianPlan& plan) {
   const MemoryPeak memory;
   const Scene scene = MakeJacobianScene(c, plan);
-  SimulatorOptions options = MakeOptions();
+  SimulatorOptions options;
   options.num_threads = plan.num_threads;
   Simulator simulator(scene, options);
   const Eigen::VectorXd parameters = simulator.layout().Extract(scene);

@@ -6,9 +6,12 @@
 #include "benchmarks.h"
 
 int main(int argc, char** argv) {
+  dpe::bench::RegisterMachine();
   dpe::bench::RegisterForward();
   dpe::bench::RegisterGradient();
+  dpe::bench::RegisterMemory();
   dpe::bench::RegisterJacobian();
+  dpe::bench::RegisterLmIteration();
   dpe::bench::RegisterEstimation();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

@@ -36,6 +36,8 @@ MemoryPeak::MemoryPeak() {
   start_ = StatusMebibytes("VmRSS");
 }
 
-double MemoryPeak::Mebibytes() const { return StatusMebibytes("VmHWM") - start_; }
+double MemoryPeak::Mebibytes() const { return ResidentMebibytes() - start_; }
+
+double MemoryPeak::ResidentMebibytes() const { return StatusMebibytes("VmHWM"); }
 
 }  // namespace dpe::bench

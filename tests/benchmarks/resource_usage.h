@@ -14,6 +14,8 @@ class MemoryPeak {
  public:
   MemoryPeak();
   double Mebibytes() const;  // 0 where the system does not tell
+  // The same with what was resident at construction.
+  double ResidentMebibytes() const;
 
  private:
   double start_;

@@ -4,8 +4,9 @@
     table.py FILE.json...
 
 Of the repetitions of a benchmark the least of every time is taken, of other counters the
-last. The exponent of a row is that of the growth from the next smaller grid,
-log(time ratio) / log(ratio of the numbers of vertices).
+last. The exponents of a row are those of the growth from the next smaller grid, and from
+the smallest, log(time ratio) / log(ratio of the numbers of vertices). Times are processor
+time unless they are called wall time.
 """
 import json
 import math
@@ -13,8 +14,10 @@ import re
 import sys
 
 TIMES = ("ms", "ms_per_frame", "floor_ms", "rollout_ms", "backward_ms",
-         "us_per_frame_and_column")
+         "us_per_frame_and_column", "wall_ms", "rejected_ms", "jacobian_wall_ms",
+         "least_squares_wall_ms")
 PRESET_ORDER = ("side", "flag")
+SOLVER_ORDER = ("cholesky", "cg", "auto")
 
 
 def read(paths):
@@ -37,24 +40,29 @@ def merge(result, run):
     for key, value in run.items():
         if key in TIMES and key in result:
             value = min(value, result[key])
+        if key == "gflops" and key in result:
+            value = max(value, result[key])
         result[key] = value
 
 
 def parts(name):
-    """"forward/side/method:2/grid:12" -> ("forward", "side", {"method": 2, ...})."""
-    what, preset, *rest = name.split("/")
-    return what, preset, {k: int(v) for k, v in (r.split(":") for r in rest)}
+    """"forward/side/cg/method:2/grid:12" -> ("forward", "side", {"solver": "cg", ...})."""
+    what, preset, solver, *rest = name.split("/")
+    fields = {k: int(v) for k, v in (r.split(":") for r in rest)}
+    return what, preset, dict(fields, solver=solver)
 
 
 def select(results, kind):
     """Rows of one kind, as (preset, fields, counters), in the order of the tables."""
     rows = []
     for name, counters in results.items():
+        if name.startswith("machine_"):
+            continue
         what, preset, fields = parts(name)
         if what == kind or kind.endswith("*") and what.startswith(kind[:-1]):
             rows.append((preset, dict(fields, what=what), counters))
-    order = {preset: k for k, preset in enumerate(PRESET_ORDER)}
-    rows.sort(key=lambda r: (order.get(r[0], 9), r[1]["method"]))
+    rows.sort(key=lambda r: (PRESET_ORDER.index(r[0]), r[1]["method"], r[1]["what"],
+                             SOLVER_ORDER.index(r[1]["solver"]), r[1]["grid"]))
     return rows
 
 
@@ -102,15 +110,29 @@ def failure(counters, num_cells):
 
 
 class Series:
-    """Remembers the last successful row of each series, for the exponents."""
+    """Remembers rows of each series of grids, for the exponents."""
 
     def __init__(self):
+        self.first = {}
         self.last = {}
 
-    def exponent(self, series, key, counters):
+    def exponents(self, series, key, counters):
+        """Cells: growth from the next smaller grid, and from the smallest of all."""
         previous = self.last.get(series)
+        first = self.first.setdefault(series, counters)
         self.last[series] = counters
-        return number(exponent(key, counters, previous), 3)
+        overall = exponent(key, counters, first) if first is not counters else None
+        return [number(exponent(key, counters, previous)), number(overall)]
+
+
+EXPONENTS = ["exponent", "from smallest"]
+
+
+def machine(results):
+    for name, c in results.items():
+        if name.startswith("machine_dgemm"):
+            print(f"Machine: {number(c['gflops'])} GFlop/s in products of 512 × 512 "
+                  f"matrices (dgemm), one core.\n")
 
 
 def grid_name(fields):
@@ -120,27 +142,29 @@ def grid_name(fields):
 def forward(results):
     rows, series = [], Series()
     for preset, fields, c in select(results, "forward"):
-        cells = [preset, str(fields["method"]), grid_name(fields)]
+        cells = [preset, str(fields["method"]), fields["solver"], grid_name(fields)]
         if c.get("error_occurred"):
-            rows.append(cells + failure(c, 6))
+            rows.append(cells + failure(c, 7))
             continue
         systems = c["factorizations_per_frame"]
         floor = c.get("floor_ms")
         rows.append(cells + [
             number(c["ms_per_frame"]), number(floor),
             number(ratio(c["ms_per_frame"], floor)), number(systems),
-            number(ratio(c["ms_per_frame"], floor * systems if floor else None)),
-            series.exponent((preset, fields["method"]), "ms_per_frame", c)])
+            number(ratio(c["ms_per_frame"], floor * systems if floor else None))] +
+            series.exponents((preset, fields["method"], fields["solver"]),
+                             "ms_per_frame", c))
     table("Forward frame",
-          ["scene", "method", "grid", "ms per frame", "floor, ms", "ratio to floor",
-           "factorisations per frame", "ratio to that many floors", "exponent"], rows)
+          ["scene", "method", "solver", "grid", "ms per frame", "floor, ms",
+           "ratio to floor", "factorisations per frame", "ratio to that many floors"] +
+          EXPONENTS, rows)
 
 
 def forward_frame(results, preset, fields):
     """The forward figure that belongs to a gradient's, or None."""
+    same = ("method", "solver", "grid")
     for other, other_fields, c in select(results, "forward"):
-        if (other, other_fields["method"], other_fields["grid"]) == (
-                preset, fields["method"], fields["grid"]):
+        if other == preset and all(other_fields[k] == fields[k] for k in same):
             return c.get("ms_per_frame")
     return None
 
@@ -148,19 +172,54 @@ def forward_frame(results, preset, fields):
 def gradient(results):
     rows, series = [], Series()
     for preset, fields, c in select(results, "gradient"):
-        cells = [preset, str(fields["method"]), grid_name(fields)]
+        cells = [preset, str(fields["method"]), fields["solver"], grid_name(fields)]
         if c.get("error_occurred"):
-            rows.append(cells + failure(c, 6))
+            rows.append(cells + failure(c, 8))
             continue
         alone = forward_frame(results, preset, fields)
         rows.append(cells + [
             number(c["rollout_ms"]), number(c["backward_ms"]),
-            number(c["ms_per_frame"]), number(ratio(c["ms_per_frame"], alone)),
-            number(c["peak_mib"]),
-            series.exponent((preset, fields["method"]), "ms_per_frame", c)])
+            number(c["ms_per_frame"]), number(ratio(c["ms_per_frame"], c["rollout_ms"])),
+            number(ratio(c["ms_per_frame"], alone)), number(c["peak_mib"])] +
+            series.exponents((preset, fields["method"], fields["solver"]),
+                             "ms_per_frame", c))
     table("Gradient (adjoint, all stiffnesses), per frame",
-          ["scene", "method", "grid", "recorded rollout, ms", "backward step, ms",
-           "both, ms", "× forward frame", "memory, MiB", "exponent"], rows)
+          ["scene", "method", "solver", "grid", "recorded rollout, ms",
+           "backward step, ms", "both, ms", "× recorded rollout", "× forward frame",
+           "memory, MiB"] + EXPONENTS, rows)
+
+
+def memory(results):
+    rows = []
+    for _, fields, c in select(results, "memory"):
+        limit = f"{fields['limit']} MiB" if fields["limit"] else "none"
+        cells = [grid_name(fields), count(fields["frames"]), limit]
+        if c.get("error_occurred"):
+            rows.append(cells + failure(c, 4))
+            continue
+        rows.append(cells + [number(c["peak_mib"]), number(c["resident_mib"]),
+                             count(c["ms"]), repr(c["gradient_norm"])])
+    table("Memory of a gradient, scene side, method 2",
+          ["grid", "frames", "memory limit", "beyond start, MiB", "resident, MiB", "ms",
+           "norm of the gradient"], rows)
+
+
+def lm_iteration(results):
+    rows = []
+    for _, fields, c in select(results, "lm_iteration"):
+        cells = [str(fields["method"]), grid_name(fields), count(fields["threads"])]
+        if c.get("error_occurred"):
+            rows.append(cells + failure(c, 8))
+            continue
+        rows.append(cells + [
+            count(c["parameters"]), count(c["frames"]), count(c["ms"]),
+            count(c["wall_ms"]), count(c["jacobian_wall_ms"]),
+            count(c["least_squares_wall_ms"]), number(c.get("rejected_ms")),
+            number(c["peak_mib"])])
+    table("An iteration of Levenberg-Marquardt, side nL",
+          ["method", "grid", "threads", "parameters", "frames", "ms", "wall time, ms",
+           "of it Jacobian", "of it least squares", "rejected step, ms",
+           "memory, MiB"], rows)
 
 
 def jacobian(results):
@@ -195,28 +254,32 @@ def inverse_dynamics(results):
 
 
 def estimation(results):
-    rows = []
+    rows, series = [], Series()
     for _, fields, c in select(results, "estimation_*"):
-        cells = [fields["what"][len("estimation_"):].replace("_", " "),
-                 str(fields["method"]), grid_name(fields)]
+        what = fields["what"][len("estimation_"):].replace("_", " ")
+        cells = [what, str(fields["method"]), grid_name(fields)]
         if c.get("error_occurred"):
-            rows.append(cells + failure(c, 8))
+            rows.append(cells + failure(c, 11))
             continue
+        per_frame = dict(c, ms_per_frame=c["ms"] / (c["frames"] - 1))
         rows.append(cells + [
             count(c["frames"]), count(c["parameters"]),
             count(c["iterations"]), count(c["rollouts"]),
-            count(c["jacobians"]), number(c["ms"]), number(c["final_rms"]),
-            number(c["peak_mib"]), c.get("label", "")])
+            count(c["jacobians"]), number(c["ms"])] +
+            series.exponents((what, fields["method"]), "ms_per_frame", per_frame) +
+            [number(c["final_rms"]), number(c["peak_mib"]), c.get("label", "")])
     table("Whole estimations, scene side",
           ["what", "method", "grid", "frames", "parameters", "iterations", "rollouts",
-           "Jacobians", "ms", "RMS, m", "memory, MiB", "ended"], rows)
+           "Jacobians", "ms", "exponent per frame", "from smallest", "RMS, m",
+           "memory, MiB", "ended"], rows)
 
 
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     results = read(sys.argv[1:])
-    for write in (forward, gradient, jacobian, inverse_dynamics, estimation):
+    for write in (machine, forward, gradient, memory, jacobian, lm_iteration,
+                  inverse_dynamics, estimation):
         write(results)
 
 

@@ -1,0 +1,92 @@
+// How much memory long and large gradients take.
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <string>
+
+#include "benchmarks.h"
+#include "cases.h"
+#include "dpe/engine/sensitivity.h"
+#include "dpe/engine/simulator.h"
+#include "resource_usage.h"
+
+namespace dpe::bench {
+namespace {
+
+struct MemoryPlan {
+  int grid;
+  int num_frames;
+  int limit_mib;  // 0: none
+};
+
+constexpr MemoryPlan kPlans[] = {{192, 100, 0}, {96, 500, 0}, {96, 500, 512}};
+
+// Hook: sets SimulatorOptions::memory_limit_bytes where the engine has that option.
+// @return false if it has not
+template <class Options>
+auto SetMemoryLimit(Options* options, std::size_t bytes, int)
+    -> decltype(options->memory_limit_bytes = bytes, true) {
+  options->memory_limit_bytes = bytes;
+  return true;
+}
+template <class Options>
+bool SetMemoryLimit(Options*, std::size_t, long) {
+  return false;
+}
+
+void GradientMemory(benchmark::State& state, const Case& c, int limit_mib) {
+  SimulatorOptions options;
+  if (limit_mib > 0 &&
+      !SetMemoryLimit(&options, static_cast<std::size_t>(limit_mib) << 20, 0)) {
+    state.SkipWithError("the engine has no memory limit");
+    return;
+  }
+  const MemoryPeak memory;
+  const Scene scene = MakeScene(c);
+  Simulator simulator(scene, options);
+  const Eigen::VectorXd parameters = simulator.layout().Extract(scene);
+  bool ok = true;
+  double gradient_norm = 0.0;
+  const double start = CpuSeconds();
+  for (auto _ : state) {
+    const Rollout rollout = simulator.Run(parameters, c.plan.num_frames);
+    Sensitivity sensitivity(&simulator, &rollout);
+    ok = rollout.status().ok();
+    if (!ok) break;
+    gradient_norm = sensitivity.Gradient(rollout.trajectory().positions).norm();
+    ok = sensitivity.ok();
+  }
+  if (!ok) {
+    state.SkipWithError("the rollout or its backward pass failed");
+    return;
+  }
+  state.counters["ms"] = 1e3 * (CpuSeconds() - start) / state.iterations();
+  state.counters["frames"] = c.plan.num_frames;
+  state.counters["limit_mib"] = limit_mib;
+  state.counters["peak_mib"] = memory.Mebibytes();
+  state.counters["resident_mib"] = memory.ResidentMebibytes();
+  state.counters["gradient_norm"] = gradient_norm;
+}
+
+}  // namespace
+
+void RegisterMemory() {
+  for (const MemoryPlan& plan : kPlans) {
+    const Case c{ScenePreset::kSide,
+                 "side",
+                 IntegrationMethod::kLinearlyImplicitEuler,
+                 {plan.grid, plan.num_frames, 1}};
+    const std::string name = CaseName("memory", c) +
+                             "/frames:" + std::to_string(plan.num_frames) +
+                             "/limit:" + std::to_string(plan.limit_mib) + "/slow:1";
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [c, plan](benchmark::State& state) {
+                                   GradientMemory(state, c, plan.limit_mib);
+                                 })
+        ->Unit(benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
+        ->Iterations(1);
+  }
+}
+
+}  // namespace dpe::bench
