@@ -54,9 +54,21 @@ void Sensitivity::JacobianVectorProduct(const Eigen::VectorXd& dp,
 
 RowMajorMatrix Sensitivity::Jacobian(const std::vector<StateDerivative>& derivatives,
                                      int num_rows, JacobianMethod method) {
+  RowMajorMatrix jacobian;
+  Jacobian(derivatives, num_rows, method, &jacobian);
+  return jacobian;
+}
+
+void Sensitivity::Jacobian(const std::vector<StateDerivative>& derivatives,
+                           int num_rows, JacobianMethod method,
+                           RowMajorMatrix* jacobian) {
   const ScopedTimer timer(simulator_->options_.timings, TimedPart::kDerivatives);
   if (method == JacobianMethod::kAuto) method = CheaperMethod(derivatives);
-  RowMajorMatrix jacobian = RowMajorMatrix::Zero(num_rows, simulator_->layout().size());
+  // Zeros that are written, not fresh pages of the system: adding to those from several
+  // threads means a fault per page that stops them all.
+  jacobian->resize(num_rows, simulator_->layout().size());
+  jacobian->setZero();
+
   for (size_t o = 0; o < simulator_->systems_.size(); ++o) {
     if (!simulator_->systems_[o]) continue;
     PassInput input{&simulator_->scene_,
@@ -69,10 +81,9 @@ RowMajorMatrix Sensitivity::Jacobian(const std::vector<StateDerivative>& derivat
     }
     std::stable_sort(input.derivatives.begin(), input.derivatives.end(),
                      [](const auto* a, const auto* b) { return a->frame < b->frame; });
-    ok_ &= method == JacobianMethod::kTangent ? AddTangentJacobian(input, &jacobian)
-                                              : AddAdjointJacobian(input, &jacobian);
+    ok_ &= method == JacobianMethod::kTangent ? AddTangentJacobian(input, jacobian)
+                                              : AddAdjointJacobian(input, jacobian);
   }
-  return jacobian;
 }
 
 JacobianMethod Sensitivity::CheaperMethod(
