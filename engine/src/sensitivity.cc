@@ -84,18 +84,28 @@ void Sensitivity::JacobianVectorProduct(const Eigen::VectorXd& dp,
 
 RowMajorMatrix Sensitivity::Jacobian(const std::vector<StateDerivative>& derivatives,
                                      int num_rows, JacobianMethod method) {
+  RowMajorMatrix jacobian;
+  Jacobian(derivatives, num_rows, method, &jacobian);
+  return jacobian;
+}
+
+void Sensitivity::Jacobian(const std::vector<StateDerivative>& derivatives,
+                           int num_rows, JacobianMethod method,
+                           RowMajorMatrix* jacobian) {
   const ScopedTimer timer(simulator_->options_.timings, TimedPart::kDerivatives);
   if (method == JacobianMethod::kAuto) method = CheaperMethod(derivatives);
-  RowMajorMatrix jacobian = RowMajorMatrix::Zero(num_rows, simulator_->layout().size());
+  // Zeros that are written, not fresh pages of the system: adding to those from several
+  // threads means a fault per page that stops them all.
+  jacobian->resize(num_rows, simulator_->layout().size());
+  jacobian->setZero();
   // One object after the other: several may add to the same rows.
   for (int o = 0; o < static_cast<int>(simulator_->systems_.size()); ++o) {
     if (!simulator_->systems_[o]) continue;
     const StateDerivatives of_object = DerivativesOf(derivatives, o);
     ok_ &= method == JacobianMethod::kTangent
-               ? AddTangentJacobian(Record(o), of_object, &jacobian)
-               : AddAdjointJacobian(Record(o), of_object, &jacobian);
+               ? AddTangentJacobian(Record(o), of_object, jacobian)
+               : AddAdjointJacobian(Record(o), of_object, jacobian);
   }
-  return jacobian;
 }
 
 JacobianMethod Sensitivity::CheaperMethod(

@@ -45,19 +45,21 @@ void GradientMemory(benchmark::State& state, const Case& c, int limit_mib) {
   const Scene scene = MakeScene(c);
   Simulator simulator(scene, options);
   const Eigen::VectorXd parameters = simulator.layout().Extract(scene);
-  bool ok = true;
+  std::string error;
   double gradient_norm = 0.0;
   const double start = CpuSeconds();
   for (auto _ : state) {
     const Rollout rollout = simulator.Run(parameters, c.plan.num_frames);
+    if (!rollout.status().ok()) {
+      error = rollout.status().Message();
+      break;
+    }
     Sensitivity sensitivity(&simulator, &rollout);
-    ok = rollout.status().ok();
-    if (!ok) break;
     gradient_norm = sensitivity.Gradient(rollout.trajectory().positions).norm();
-    ok = sensitivity.ok();
+    if (!sensitivity.ok()) error = "the backward pass failed";
   }
-  if (!ok) {
-    state.SkipWithError("the rollout or its backward pass failed");
+  if (!error.empty()) {
+    state.SkipWithError(error.c_str());
     return;
   }
   state.counters["ms"] = 1e3 * (CpuSeconds() - start) / state.iterations();

@@ -122,6 +122,25 @@ TEST(TrajectoryEvaluatorTest, OneRolloutPerPointAndOneDerivativePassWhenAsked) {
   EXPECT_EQ(evaluator->num_rollouts(), 2);
 }
 
+// Its memory is used again from point to point.
+TEST(TrajectoryEvaluatorTest, AJacobianHoldsNothingOfTheOneBefore) {
+  const Scene scene = SceneWithEverythingEstimated("flag");
+  for (const JacobianMethod method :
+       {JacobianMethod::kTangent, JacobianMethod::kAdjoint}) {
+    TrajectoryEvaluatorOptions options;
+    options.jacobian = method;
+    TrajectoryEvaluator evaluator(scene, CostsFor(scene), options);
+    const Eigen::VectorXd q = StartOf(scene, &evaluator);
+    ASSERT_TRUE(evaluator.Evaluate(q) && evaluator.EvaluateJacobian());
+    const RowMajorMatrix first = evaluator.jacobian();
+    ASSERT_TRUE(evaluator.Evaluate(1.01 * q) && evaluator.EvaluateJacobian());
+    EXPECT_NE(evaluator.jacobian(), first);
+    ASSERT_TRUE(evaluator.Evaluate(q) && evaluator.EvaluateJacobian());
+    EXPECT_EQ(evaluator.jacobian(), first);
+    EXPECT_GT(first.norm(), 0.0);
+  }
+}
+
 TEST(TrajectoryEvaluatorTest, RemembersTheBestPoint) {
   const Scene scene = SceneWithEverythingEstimated("flag");
   TrajectoryEvaluator evaluator(scene, CostsFor(scene));

@@ -120,6 +120,12 @@ put tools/peek.cc '#include "forces/spring.h"'
 refused "a program includes a private header" "peek.cc:1: private header of engine"
 put tests/engine/peek_test.cc '#include "linear/qr.h"'
 refused "a test includes another room's private header" "private header of estimation"
+put tests/benchmarks/README.md "What lives here."
+put tests/benchmarks/floor.cc '#include "forces/spring.h"'
+expect "a benchmark may include the engine's private headers" 0 "" \
+    bash "$tools/check_style.sh" --root "$root"
+put tests/benchmarks/floor.cc '#include "linear/qr.h"'
+refused "a benchmark includes another's" "private header of estimation: linear/qr.h"
 put estimation/src/path.cc '#include "../../engine/src/forces/spring.h"'
 refused "include by path" "^estimation/src/path.cc:1: include by path"
 put engine/include/dpe/engine/leak.h '#include "forces/spring.h"'

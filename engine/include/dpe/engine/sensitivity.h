@@ -61,6 +61,9 @@ class Sensitivity {
   // @return          num_rows x layout().size()
   RowMajorMatrix Jacobian(const std::vector<StateDerivative>& derivatives, int num_rows,
                           JacobianMethod method = JacobianMethod::kAuto);
+  // The same into `jacobian`, whose memory is used again if it has that shape.
+  void Jacobian(const std::vector<StateDerivative>& derivatives, int num_rows,
+                JacobianMethod method, RowMajorMatrix* jacobian);
 
   // What kAuto would choose: work of the tangent grows with steps x parameters, that of
   // the adjoint with the sum over residual rows of the steps before their frame.
