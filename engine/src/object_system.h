@@ -43,6 +43,9 @@ class ObjectSystem {
   // Bytes that a kept solver takes.
   size_t solver_bytes() const { return solver_context_->solver_bytes(); }
   // Whether keeping solvers saves more than the assembly of their matrices.
+  size_t factor_nonzeros() const {
+    return solver_context_->analysis()->factor_bytes() / sizeof(double);
+  }
   bool KeepingSolversPays() const { return !solver_context_->iterative; }
 
   const ObjectParameters& parameters() const { return parameters_; }

@@ -131,8 +131,8 @@ bool TrajectoryEvaluator::EvaluateJacobian() {
   if (!ok_) return false;
   if (jacobian_is_current_) return true;
   Sensitivity sensitivity(&simulator_, &rollout_);
-  jacobian_ =
-      sensitivity.Jacobian(StateDerivatives(), num_residuals(), options_.jacobian);
+  sensitivity.Jacobian(StateDerivatives(), num_residuals(), options_.jacobian,
+                       &jacobian_);
   ++num_derivative_passes_;
   const Eigen::VectorXd scale = map_.Derivative(coordinates_);
   for (int row = 0; row < jacobian_.rows(); ++row) {

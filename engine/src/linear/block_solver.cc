@@ -12,7 +12,7 @@ bool BlockSolver::Prepare(StepSolver* solver, bool symmetric, int num_columns) {
   const int n = pattern_.num_rows();
   solver_ = solver;
   // A dense factorisation costs n^3 * 2/3; it pays from a few dozen columns on.
-  dense_ = n <= kDenseLimit && num_columns >= n / 8;
+  dense_ = IsDense(n, num_columns);
   if (!dense_) return solver->Factorize(symmetric);
   lu_.assign(static_cast<size_t>(n) * n, 0.0);
   pivots_.resize(n);

@@ -19,6 +19,11 @@ class BlockSolver {
  public:
   static constexpr int kDenseLimit = 1300;
 
+  // Whether Prepare factorises densely for so many columns.
+  static bool IsDense(int num_rows, int num_columns) {
+    return num_rows <= kDenseLimit && num_columns >= num_rows / 8;
+  }
+
   explicit BlockSolver(const BlockPattern& pattern);
 
   // Prepares for `solver`'s matrix, whose values must be assembled. `num_columns` is
