@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include "linear/block_solver.h"
 #include "support/scene_derivatives.h"
 #include "support/test_scenes.h"
 
@@ -33,6 +34,24 @@ TEST_P(ThreadsTest, ResultsAreEqualBitByBit) {
   for (const int num_threads : {2, 3}) {
     options.num_threads = num_threads;
     EXPECT_EQ(Distance(ComputeDerivatives(scene, options, 5), one), 0.0) << num_threads;
+  }
+}
+
+// Beyond what is factorised densely, with more columns and rows than one block has.
+TEST(ThreadsTest, LargeSystemsAreSolvedAlike) {
+  Scene scene = MakeDerivativeScene("side", 22);
+  ASSERT_GT(3 * scene.objects[0].num_vertices(), BlockSolver::kDenseLimit);
+  Perturb(7, &scene);
+  ClothObject& cloth = scene.objects[0];
+  cloth.stiffness_mode = ParameterMode::kGroup;
+  cloth.spring_group.resize(cloth.num_springs());
+  for (int s = 0; s < cloth.num_springs(); ++s) cloth.spring_group[s] = s % 100;
+  for (const char* solver : {"cholesky", "cg"}) {
+    scene.solver = solver;
+    SimulatorOptions options;
+    const SceneDerivatives one = ComputeDerivatives(scene, options, 3);
+    options.num_threads = 3;
+    EXPECT_EQ(Distance(ComputeDerivatives(scene, options, 3), one), 0.0) << solver;
   }
 }
 
