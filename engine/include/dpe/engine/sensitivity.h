@@ -70,8 +70,8 @@ class Sensitivity {
   RowMajorMatrix Jacobian(const std::vector<StateDerivative>& derivatives, int num_rows,
                           JacobianMethod method = JacobianMethod::kAuto);
 
-  // The same into a matrix that is resized as needed: whoever asks again and again saves
-  // the system a large allocation.
+  // The same into a matrix that is resized as needed: whoever asks again and again
+  // saves the system a large allocation.
   void Jacobian(const std::vector<StateDerivative>& derivatives, int num_rows,
                 JacobianMethod method, RowMajorMatrix* jacobian);
 
