@@ -52,6 +52,11 @@ DEFINE_uint64(seed, 0, "Seed of --noise_sigma and --init_perturbation.");
 DEFINE_string(output_dir, "",
               "Folder for the results; default results/<scene>_<settings>.");
 DEFINE_int32(threads, 1, "Number of threads.");
+DEFINE_int32(
+    memory_limit, 2048,
+    "What a rollout may keep in memory for its derivatives beyond the "
+    "trajectory, MiB; derivatives make the rest again, to the same result. Not "
+    "counted are the Jacobian of lm and the observations.");
 DEFINE_bool(print_times, false,
             "Print where the time of the fit went (also if the scene's printTimes is "
             "true).");
@@ -112,6 +117,7 @@ EstimationJob JobFromFlags() {
   RequireAtLeast("max_seconds", FLAGS_max_seconds, 0.0);
   RequireAtLeast("noise_sigma", FLAGS_noise_sigma, 0.0);
   RequireAtLeast("threads", FLAGS_threads, 1);
+  RequireAtLeast("memory_limit", FLAGS_memory_limit, 0);
   EstimationJob job;
   job.scene_path = FLAGS_scene;
   job.settings = FLAGS_settings;
@@ -129,6 +135,7 @@ EstimationJob JobFromFlags() {
   job.options.max_iterations = FLAGS_max_iterations;
   job.options.max_seconds = FLAGS_max_seconds;
   job.options.num_threads = FLAGS_threads;
+  job.options.memory_limit_bytes = static_cast<std::size_t>(FLAGS_memory_limit) << 20;
   return job;
 }
 

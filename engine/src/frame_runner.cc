@@ -20,15 +20,16 @@ FrameRunner::FrameRunner(const Scene& scene, const SimulatorOptions& options,
       options_(options),
       system_(system),
       integrator_(MakeIntegrator(scene.integration_method, options)),
-      v0_(system->num_coordinates()),
-      change_(system->num_coordinates()) {}
+      v0_(system->num_coordinates()) {}
 
 StepOutcome FrameRunner::Run(int frame, int num_steps, const FrameTarget& target,
                              const std::vector<std::unique_ptr<KeptFactor>>& kept,
                              int* failed_step) {
   InnerStates* inner = target.inner;
   const int slot = target.inner_frame;
-  if (HasInnerStates()) RestartMemory(target);
+  // A pass may begin at this checkpoint: what a step remembers of earlier ones must not
+  // depend on whether they came just before.
+  if (HasInnerStates()) integrator_->ForgetSteps();
   for (int k = 0; k < num_steps; ++k) {
     const bool is_last = k == scene_.steps_per_frame - 1;
     const int s = frame * scene_.steps_per_frame + k;
@@ -50,17 +51,6 @@ StepOutcome FrameRunner::Run(int frame, int num_steps, const FrameTarget& target
     }
   }
   return {};
-}
-
-void FrameRunner::RestartMemory(const FrameTarget& target) {
-  if (target.v_before == nullptr) {
-    integrator_->RestartMemory(*system_, nullptr);
-    return;
-  }
-  for (Eigen::Index c = 0; c < change_.size(); ++c) {
-    change_[c] = (target.v0[c] - target.v_before[c]) / scene_.steps_per_frame;
-  }
-  integrator_->RestartMemory(*system_, change_.data());
 }
 
 StepOutcome FrameRunner::Step(int step, const double* x0, const double* v0,

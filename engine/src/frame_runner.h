@@ -21,8 +21,7 @@ namespace dpe {
 struct FrameTarget {
   const double* x0 = nullptr;  // the checkpoint
   const double* v0 = nullptr;
-  const double* v_before = nullptr;  // velocities one frame earlier; null at frame 0
-  double* x1 = nullptr;              // after the last step
+  double* x1 = nullptr;  // after the last step
   double* v1 = nullptr;
   InnerStates* inner = nullptr;  // before that
   int inner_frame = 0;           // its frame there
@@ -49,9 +48,6 @@ class FrameRunner {
                   int* failed_step);
 
  private:
-  // What a step remembers of earlier ones, as a first guess for an iterative solver,
-  // must follow from the checkpoints where a pass may begin there.
-  void RestartMemory(const FrameTarget& target);
   StepOutcome Step(int step, const double* x0, const double* v0,
                    const StepResult& result);
 
@@ -59,7 +55,7 @@ class FrameRunner {
   const SimulatorOptions& options_;
   ObjectSystem* system_;
   std::unique_ptr<Integrator> integrator_;
-  Eigen::VectorXd v0_, change_;
+  Eigen::VectorXd v0_;
 };
 
 }  // namespace dpe

@@ -52,9 +52,8 @@ RolloutStatus RollOutObject(const Scene& scene, const SimulatorOptions& options,
   RolloutStatus status;
   status.object = object;
   for (int f = 0; f + 1 < x.cols(); ++f) {
-    FrameTarget target{x.col(f).data(),     v.col(f).data(),     nullptr,
-                       x.col(f + 1).data(), v.col(f + 1).data(), &passing};
-    if (f > 0) target.v_before = v.col(f - 1).data();
+    FrameTarget target{x.col(f).data(), v.col(f).data(), x.col(f + 1).data(),
+                       v.col(f + 1).data(), &passing};
     if (f < tape->inner.num_frames()) {
       target.inner = &tape->inner;
       target.inner_frame = f;

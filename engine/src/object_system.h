@@ -42,6 +42,10 @@ class ObjectSystem {
   size_t factor_bytes() const { return solver_context_->kept_bytes(IsSymmetric()); }
   // Whether keeping factorisations saves more than the assembly of their matrices.
   bool KeepingFactorsPays() const { return !solver_context_->iterative; }
+  // Numbers in the panels of one triangular factor.
+  size_t factor_values() const {
+    return solver_context_->direct->analysis()->structure()->num_values();
+  }
 
   const ObjectParameters& parameters() const { return parameters_; }
   // Columns of this object's parameters in the layout, and the same renumbered from 0.

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "derivatives/gradient_pass.h"
+#include "derivatives/jacobian_cost.h"
 #include "derivatives/jacobian_pass.h"
 #include "object_system.h"
 #include "parallel.h"
@@ -22,6 +23,17 @@ StateDerivatives DerivativesOf(const std::vector<StateDerivative>& derivatives,
   std::stable_sort(result.begin(), result.end(),
                    [](const auto* a, const auto* b) { return a->frame < b->frame; });
   return result;
+}
+
+// Row by row, so that the pages of a large matrix are written first, not read, and by
+// all threads: a Jacobian is the largest thing in memory by far.
+void SetZero(int num_threads, RowMajorMatrix* matrix) {
+  const Eigen::Index num_chunks = std::min<Eigen::Index>(matrix->rows(), 64);
+  ParallelFor(num_threads, static_cast<int>(num_chunks), [&](int i) {
+    const Eigen::Index begin = matrix->rows() * i / num_chunks;
+    const Eigen::Index end = matrix->rows() * (i + 1) / num_chunks;
+    matrix->middleRows(begin, end - begin).setZero();
+  });
 }
 
 }  // namespace
@@ -94,10 +106,8 @@ void Sensitivity::Jacobian(const std::vector<StateDerivative>& derivatives,
                            RowMajorMatrix* jacobian) {
   const ScopedTimer timer(simulator_->options_.timings, TimedPart::kDerivatives);
   if (method == JacobianMethod::kAuto) method = CheaperMethod(derivatives);
-  // Zeros that are written, not fresh pages of the system: adding to those from several
-  // threads means a fault per page that stops them all.
   jacobian->resize(num_rows, simulator_->layout().size());
-  jacobian->setZero();
+  SetZero(simulator_->options_.num_threads, jacobian);
   // One object after the other: several may add to the same rows.
   for (int o = 0; o < static_cast<int>(simulator_->systems_.size()); ++o) {
     if (!simulator_->systems_[o]) continue;
@@ -108,21 +118,24 @@ void Sensitivity::Jacobian(const std::vector<StateDerivative>& derivatives,
   }
 }
 
+JacobianCosts Sensitivity::PredictCosts(
+    const std::vector<StateDerivative>& derivatives) const {
+  JacobianCosts sum;
+  for (int o = 0; o < static_cast<int>(simulator_->systems_.size()); ++o) {
+    if (!simulator_->systems_[o]) continue;
+    const JacobianCosts costs =
+        PredictJacobianCosts(Record(o), DerivativesOf(derivatives, o));
+    sum.tangent += costs.tangent;
+    sum.adjoint += costs.adjoint;
+  }
+  return sum;
+}
+
 JacobianMethod Sensitivity::CheaperMethod(
     const std::vector<StateDerivative>& derivatives) const {
-  double tangent = 0.0, adjoint = 0.0;
-  std::vector<int> last_frame(simulator_->systems_.size(), 0);
-  for (const StateDerivative& d : derivatives) {
-    last_frame[d.object] = std::max(last_frame[d.object], d.frame);
-    adjoint += static_cast<double>(d.frame) *
-               std::max(d.d_position.rows(), d.d_velocity.rows());
-  }
-  for (size_t o = 0; o < simulator_->systems_.size(); ++o) {
-    if (!simulator_->systems_[o]) continue;
-    tangent += static_cast<double>(last_frame[o]) *
-               simulator_->systems_[o]->columns().used().size();
-  }
-  return tangent <= adjoint ? JacobianMethod::kTangent : JacobianMethod::kAdjoint;
+  const JacobianCosts costs = PredictCosts(derivatives);
+  return costs.tangent <= costs.adjoint ? JacobianMethod::kTangent
+                                        : JacobianMethod::kAdjoint;
 }
 
 }  // namespace dpe

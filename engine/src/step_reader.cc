@@ -29,7 +29,6 @@ bool StepReader::Rerun(int frame) {
   FrameTarget target;
   target.x0 = record_.positions->col(frame).data();
   target.v0 = record_.velocities->col(frame).data();
-  if (frame > 0) target.v_before = record_.velocities->col(frame - 1).data();
   target.x1 = x_end_.data();
   target.v1 = v_end_.data();
   target.inner = &buffer_;

@@ -40,6 +40,7 @@ class Fit {
     TrajectoryEvaluatorOptions evaluator_options;
     evaluator_options.jacobian = options.jacobian;
     evaluator_options.num_threads = options.num_threads;
+    evaluator_options.memory_limit_bytes = options.memory_limit_bytes;
     evaluator_options.timings = options.timings;
     evaluator_options.interrupted = [this] { return stop_.Poll(); };
     problem_ =

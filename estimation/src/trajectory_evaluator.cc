@@ -11,6 +11,7 @@ SimulatorOptions MakeSimulatorOptions(const TrajectoryEvaluatorOptions& options)
   SimulatorOptions simulator_options;
   simulator_options.only_estimated_objects = true;
   simulator_options.num_threads = options.num_threads;
+  simulator_options.memory_limit_bytes = options.memory_limit_bytes;
   simulator_options.interrupted = options.interrupted;
   simulator_options.timings = options.timings;
   return simulator_options;
@@ -60,6 +61,7 @@ bool TrajectoryEvaluator::Evaluate(const Eigen::VectorXd& coordinates) {
   coordinates_ = coordinates;
   const Eigen::VectorXd parameters = map_.ToParameters(coordinates);
   if (!parameters.allFinite()) return Fail("a parameter is not a finite number");
+  rollout_ = Rollout();  // one at a time in memory
   rollout_ = simulator_.Run(parameters, num_frames_);
   ++num_rollouts_;
   if (!rollout_.status().ok()) {
@@ -93,10 +95,11 @@ bool TrajectoryEvaluator::CostOverHorizon(const Eigen::VectorXd& coordinates,
                                           int num_frames, double* cost) {
   const Eigen::VectorXd parameters = map_.ToParameters(coordinates);
   if (!parameters.allFinite()) return false;
+  rollout_ = Rollout();  // one at a time in memory
+  coordinates_.resize(0);
+  ok_ = false;
   const Rollout rollout = simulator_.Run(parameters, num_frames);
   ++num_rollouts_;
-  coordinates_.resize(0);  // the simulator now stands at another point
-  ok_ = false;
   if (!rollout.status().ok()) return false;
   Eigen::VectorXd residuals;
   *cost = 0.0;

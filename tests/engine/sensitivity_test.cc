@@ -4,11 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include <string>
 #include <tuple>
 
 #include "dpe/engine/simulator.h"
 #include "support/derivative_checker.h"
+#include "support/scene_derivatives.h"
 #include "support/test_scenes.h"
 
 namespace dpe::test {
@@ -22,7 +23,10 @@ constexpr int kHalfResolution = 3;
 constexpr int kHalfResolution = 6;
 #endif
 
-using Case = std::tuple<IntegrationMethod, std::string, int>;
+// How the steps are solved, and what of the rollout is kept.
+enum class Way { kDefault, kIterative, kNothingKept, kIterativeNothingKept };
+
+using Case = std::tuple<IntegrationMethod, std::string, int, Way>;
 
 // All positions and velocities of all frames in one vector.
 Eigen::VectorXd Flatten(const std::vector<Eigen::MatrixXd>& x,
@@ -80,18 +84,31 @@ Scene MakeScene(IntegrationMethod method, const std::string& name, ParameterMode
 }
 
 std::string CaseName(const testing::TestParamInfo<Case>& info) {
+  const char* ways[] = {"", "_cg", "_nothing_kept", "_cg_nothing_kept"};
   return IntegrationMethodName(std::get<0>(info.param)) + "_" +
-         std::get<1>(info.param) + "_" + std::to_string(std::get<2>(info.param));
+         std::get<1>(info.param) + "_" + std::to_string(std::get<2>(info.param)) +
+         ways[static_cast<int>(std::get<3>(info.param))];
 }
 
 class SensitivityTest : public testing::TestWithParam<Case> {};
 
 TEST_P(SensitivityTest, AdjointTangentAndDifferencesAgree) {
-  const auto [method, name, num_frames] = GetParam();
-  const Scene scene =
+  const auto [method, name, num_frames, way] = GetParam();
+  Scene scene =
       MakeScene(method, name, ParameterMode::kLocal,
                 name == "two_objects" ? kHalfResolution + 1 : 2 * kHalfResolution);
-  Simulator simulator(scene);
+  SimulatorOptions options;
+  const bool iterative = way == Way::kIterative || way == Way::kIterativeNothingKept;
+  if (iterative) {
+    scene.solver = "cg";
+    scene.tolerance = 1e-12;
+  }
+  if (way == Way::kNothingKept || way == Way::kIterativeNothingKept) {
+    options.memory_limit_bytes = 0;
+    scene.steps_per_frame = 2;
+  }
+  const double duality_tolerance = iterative ? 1e-9 : 1e-10;
+  Simulator simulator(scene, options);
   const ParameterLayout& layout = simulator.layout();
   const Eigen::VectorXd p = layout.Extract(scene);
   const int frames = num_frames;
@@ -129,11 +146,11 @@ TEST_P(SensitivityTest, AdjointTangentAndDifferencesAgree) {
         CheckDirectionalDerivative(flat_rollout, p, dp, tangent);
     EXPECT_LT(check.relative_error, 1e-6) << check;
     const double scale = mu.norm() * tangent.norm();
-    EXPECT_NEAR(gradient.dot(dp), mu.dot(tangent), 1e-10 * scale);
+    EXPECT_NEAR(gradient.dot(dp), mu.dot(tangent), duality_tolerance * scale);
     // The same identity relative to the product itself, where it is not small by
     // accident.
     if (std::abs(mu.dot(tangent)) > 1e-2 * scale) {
-      EXPECT_NEAR(gradient.dot(dp) / mu.dot(tangent), 1.0, 1e-10);
+      EXPECT_NEAR(gradient.dot(dp) / mu.dot(tangent), 1.0, duality_tolerance);
     }
     // A derivative that is off by one part in a thousand is caught.
     const DerivativeCheck poisoned =
@@ -203,29 +220,6 @@ TEST_P(KeptFactorizationTest, IterativeSolverFollowsItsTolerance) {
 // The Jacobian of chosen rows, both ways, against the tangent of single directions.
 class JacobianTest : public testing::TestWithParam<IntegrationMethod> {};
 
-std::vector<StateDerivative> RandomRows(const Scene& scene, int num_frames,
-                                        int* num_rows) {
-  std::mt19937 generator(3);
-  std::vector<StateDerivative> derivatives;
-  *num_rows = 150;  // more than one block of adjoint rows
-  for (int k = 0; k < 60; ++k) {
-    StateDerivative d;
-    d.object = k % static_cast<int>(scene.objects.size());
-    d.frame = static_cast<int>(generator() % num_frames);
-    d.first_row = static_cast<int>(generator() % (*num_rows - 3));
-    const int n = 3 * scene.objects[d.object].num_vertices();
-    d.d_position.resize(3, n);
-    d.d_velocity.resize(3, n);
-    for (int r = 0; r < 3; ++r) {
-      d.d_position.insert(r, generator() % n) = 1.0 + r;
-      if (k % 2 == 0) d.d_velocity.insert(r, generator() % n) = 0.1;
-    }
-    if (k % 2 != 0) d.d_velocity.resize(0, 0);
-    derivatives.push_back(d);
-  }
-  return derivatives;
-}
-
 TEST_P(JacobianTest, TangentAndAdjointGiveTheSameRows) {
   for (const ParameterMode mode :
        {ParameterMode::kLocal, ParameterMode::kGlobal, ParameterMode::kGroup}) {
@@ -281,7 +275,28 @@ INSTANTIATE_TEST_SUITE_P(
                                      IntegrationMethod::kLinearlyImplicitEuler,
                                      IntegrationMethod::kImplicitEuler,
                                      IntegrationMethod::kTrBdf2),
-                     testing::ValuesIn(DerivativeSceneNames()), testing::Values(5, 50)),
+                     testing::ValuesIn(DerivativeSceneNames()), testing::Values(5, 50),
+                     testing::Values(Way::kDefault)),
+    CaseName);
+
+INSTANTIATE_TEST_SUITE_P(
+    Iterative, SensitivityTest,
+    testing::Combine(testing::Values(IntegrationMethod::kLinearlyImplicitEuler,
+                                     IntegrationMethod::kImplicitEuler,
+                                     IntegrationMethod::kTrBdf2),
+                     testing::ValuesIn(DerivativeSceneNames()), testing::Values(5),
+                     testing::Values(Way::kIterative)),
+    CaseName);
+
+INSTANTIATE_TEST_SUITE_P(
+    NothingKept, SensitivityTest,
+    testing::Combine(testing::Values(IntegrationMethod::kExplicitEuler,
+                                     IntegrationMethod::kSymplecticEuler,
+                                     IntegrationMethod::kLinearlyImplicitEuler,
+                                     IntegrationMethod::kImplicitEuler,
+                                     IntegrationMethod::kTrBdf2),
+                     testing::Values("two_objects"), testing::Values(5),
+                     testing::Values(Way::kNothingKept, Way::kIterativeNothingKept)),
     CaseName);
 
 }  // namespace

@@ -106,6 +106,22 @@ TEST(TrajectoryEvaluatorTest, GradientIsJacobianTransposedTimesResiduals) {
   EXPECT_GT(expected.norm(), 0.0);
 }
 
+TEST(TrajectoryEvaluatorTest, DerivativesDoNotDependOnTheMemoryLimit) {
+  Scene scene = SceneWithEverythingEstimated("two_objects");
+  scene.steps_per_frame = 2;
+  std::vector<Eigen::VectorXd> gradients;
+  for (const std::size_t limit : {std::size_t{1} << 30, std::size_t{0}}) {
+    TrajectoryEvaluatorOptions options;
+    options.memory_limit_bytes = limit;
+    TrajectoryEvaluator evaluator(scene, CostsFor(scene), options);
+    EXPECT_EQ(evaluator.simulator()->options().memory_limit_bytes, limit);
+    ASSERT_TRUE(evaluator.Evaluate(StartOf(scene, &evaluator)));
+    gradients.emplace_back();
+    ASSERT_TRUE(evaluator.EvaluateGradient(&gradients.back()));
+  }
+  EXPECT_LE((gradients[1] - gradients[0]).norm(), 1e-12 * gradients[0].norm());
+}
+
 TEST(TrajectoryEvaluatorTest, OneRolloutPerPointAndOneDerivativePassWhenAsked) {
   const Scene scene = SceneWithEverythingEstimated("flag");
   TrajectoryProblem problem(scene, CostsFor(scene));

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -39,10 +40,11 @@ bool Redirect(const char* file, int flags, int descriptor) {
 }
 
 // Waits for the child, sending SIGINT and SIGKILL when their times have come.
-int Wait(pid_t child, double start, const RunProgramOptions& options, bool* timed_out) {
+int Wait(pid_t child, double start, const RunProgramOptions& options, bool* timed_out,
+         rusage* usage) {
   bool interrupted = options.interrupt_after <= 0.0;
   int status = 0;
-  while (waitpid(child, &status, WNOHANG) == 0) {
+  while (wait4(child, &status, WNOHANG, usage) == 0) {
     const double elapsed = Now() - start;
     if (!interrupted && elapsed >= options.interrupt_after) {
       kill(child, SIGINT);
@@ -84,8 +86,10 @@ ProgramResult RunProgram(const std::string& program,
             options.working_directory.c_str());
   }
   ProgramResult result;
-  const int status = Wait(child, start, options, &result.timed_out);
+  rusage usage = {};
+  const int status = Wait(child, start, options, &result.timed_out, &usage);
   result.seconds = Now() - start;
+  result.peak_mib = static_cast<double>(usage.ru_maxrss) / 1024.0;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   if (result.exit_code == kCannotStart) {
     throw std::runtime_error(path + " could not be started");

@@ -10,9 +10,10 @@ namespace dpe::test {
 struct ProgramResult {
   int exit_code = -1;  // minus the signal's number if a signal ended it
   bool timed_out = false;
-  double seconds = 0.0;  // wall-clock time
-  std::string out;       // stdout
-  std::string err;       // stderr
+  double seconds = 0.0;   // wall-clock time
+  double peak_mib = 0.0;  // the most memory that was resident at once
+  std::string out;        // stdout
+  std::string err;        // stderr
 };
 
 struct RunProgramOptions {

@@ -41,6 +41,9 @@ TEST_F(EstimateClothExitsTest, BadFlagsNameFlagValueAndWhatIsAccepted) {
   EXPECT_THAT(Refused({"--noise_sigma=-1"}), HasSubstr("--noise_sigma"));
   EXPECT_THAT(Refused({"--max_seconds=nan"}), HasSubstr("--max_seconds"));
   EXPECT_THAT(Refused({"--threads=0"}), HasSubstr("--threads"));
+  EXPECT_THAT(
+      Refused({"--memory_limit=-1"}),
+      AllOf(HasSubstr("--memory_limit"), HasSubstr("-1"), HasSubstr("least 0")));
   EXPECT_EQ(Run({"--no_such_flag"}).exit_code, 1);
   EXPECT_EQ(Run({"--frames=ten"}).exit_code, 1);
 }

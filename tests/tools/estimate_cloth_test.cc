@@ -154,5 +154,22 @@ TEST_F(EstimateClothTest, Help) {
   }
 }
 
+TEST_F(EstimateClothTest, TheMemoryLimitChangesMemoryAndNothingElse) {
+  scene_ = MakeDerivativeScene("side", 20);
+  scene_.num_frames = 40;
+  ApplySettings("nG", &scene_);
+  SaveScene(scene_, path_);
+  const auto run = [&](const std::string& limit) {
+    const ProgramResult result = Run({"--init=uniform:800", "--solver=lbfgs",
+                                      "--max_iterations=1", "--memory_limit=" + limit});
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    return std::make_pair(result.peak_mib, Report().at("final_cost").get<double>());
+  };
+  const auto [peak_without, cost_without] = run("0");
+  const auto [peak_with, cost_with] = run("2048");
+  EXPECT_GT(peak_with, peak_without + 20.0);  // 39 factorisations of a megabyte
+  EXPECT_NEAR(cost_with / cost_without, 1.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace dpe::test

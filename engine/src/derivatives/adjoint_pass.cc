@@ -2,11 +2,11 @@
 // together, stage by stage (integrator.h). With mu = wv + c wx and A^T lambda = mu the
 // adjoint of the stage's input is (wx + Rx^T lambda, Rv^T lambda + p wx), and
 // row += B^T lambda.
-#include <algorithm>
 #include <atomic>
-#include <numeric>
+#include <utility>
 
 #include "derivatives/jacobian_pass.h"
+#include "derivatives/row_groups.h"
 #include "derivatives/stage_matrices.h"
 #include "parallel.h"
 
@@ -30,7 +30,7 @@ class AdjointSweep {
         steps_per_frame_(record.scene->steps_per_frame),
         matrices_(record, /*transposed=*/true),
         place_of_row_(num_rows, {-1, -1}) {
-    MakeBlocks(derivatives, num_rows);
+    MakeBlocks(derivatives);
   }
 
   int last_frame() const { return blocks_.empty() ? 0 : blocks_.front().last_frame; }
@@ -78,36 +78,22 @@ class AdjointSweep {
   }
 
  private:
-  // Rows with the latest last frame come first, so that a step touches a prefix.
-  void MakeBlocks(const StateDerivatives& derivatives, int num_rows) {
-    std::vector<int> last(num_rows, -1);
-    for (const StateDerivative* d : derivatives) {
-      const int rows =
-          static_cast<int>(std::max(d->d_position.rows(), d->d_velocity.rows()));
-      for (int r = d->first_row; r < d->first_row + rows; ++r) {
-        last[r] = std::max(last[r], d->frame);
-      }
-    }
-    std::vector<int> order(num_rows);
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return last[a] > last[b]; });
-    for (int row : order) {
-      if (last[row] < 0) break;
-      if (blocks_.empty() || blocks_.back().rows.size() == kPassBlock) {
-        blocks_.emplace_back();
-        blocks_.back().last_frame = last[row];
-      }
-      place_of_row_[row] = {static_cast<int>(blocks_.size()) - 1,
-                            static_cast<int>(blocks_.back().rows.size())};
-      blocks_.back().rows.push_back(row);
-    }
+  void MakeBlocks(const StateDerivatives& derivatives) {
     const int n = system_.pattern().num_rows();
-    for (AdjointBlock& block : blocks_) {
-      block.wx = RowMajorMatrix::Zero(n, block.rows.size());
+    for (RowGroup& group : GroupRows(derivatives)) {
+      const size_t count = group.rows.size();
+      for (size_t k = 0; k < count; ++k) {
+        place_of_row_[group.rows[k]] = {static_cast<int>(blocks_.size()),
+                                        static_cast<int>(k)};
+      }
+      AdjointBlock block;
+      block.rows = std::move(group.rows);
+      block.last_frame = group.last_frame;
+      block.wx = RowMajorMatrix::Zero(n, count);
       block.wv = block.lambda = block.wx;
-      block.gradient = RowMajorMatrix::Zero(system_.local_columns().used().size(),
-                                            block.rows.size());
+      block.gradient =
+          RowMajorMatrix::Zero(system_.local_columns().used().size(), count);
+      blocks_.push_back(std::move(block));
     }
   }
 

@@ -84,12 +84,9 @@ class Integrator {
   virtual StepOutcome Step(ObjectSystem* system, StepSolver* solver,
                            const StepStates& states, const StepResult& result) = 0;
 
-  // Forgets what it remembers of earlier steps, as first guesses of an iterative
-  // solver, so that what follows is a function of the state alone.
-  //
-  // @param change  3N: about how velocities change over a step; null: not known
-  virtual void RestartMemory(const ObjectSystem& /*system*/, const double* /*change*/) {
-  }
+  // Forgets what it remembers of earlier steps as a first guess for an iterative
+  // solver, so that the steps that follow are a function of the state alone.
+  virtual void ForgetSteps() {}
 
   // @param solver  as Step left it, then its factorisation is used; or not factorised
   // @return false if the step's linear system cannot be solved

@@ -47,14 +47,6 @@ StepOutcome LinearlyImplicitEuler::Step(ObjectSystem* system, StepSolver* solver
   return {};
 }
 
-void LinearlyImplicitEuler::RestartMemory(const ObjectSystem& system,
-                                          const double* change) {
-  last_change_.clear();
-  if (change == nullptr) return;
-  last_change_.resize(system.pattern().num_rows());
-  system.GatherFree(change, last_change_.data());
-}
-
 bool LinearlyImplicitEuler::AdjointStep(ObjectSystem* system, StepSolver* solver,
                                         const StepStates& states,
                                         const StepAdjoint& adjoint) {

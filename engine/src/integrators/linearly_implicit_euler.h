@@ -23,7 +23,7 @@ class LinearlyImplicitEuler final : public Integrator {
 
   StepOutcome Step(ObjectSystem* system, StepSolver* solver, const StepStates& states,
                    const StepResult& result) override;
-  void RestartMemory(const ObjectSystem& system, const double* change) override;
+  void ForgetSteps() override { last_change_.clear(); }
   bool AdjointStep(ObjectSystem* system, StepSolver* solver, const StepStates& states,
                    const StepAdjoint& adjoint) override;
   void TangentStage(int stage, ObjectSystem* system, StepSolver* solver,

@@ -3,14 +3,6 @@
 #include <cmath>
 
 namespace dpe {
-namespace {
-
-// With fewer columns than this the Krylov method, where a system has it, is cheaper
-// than a factorisation.
-constexpr int kMinColumnsToFactorize = 12;
-
-}  // namespace
-
 bool BlockSolver::Prepare(StepSolver* solver, bool symmetric, int num_columns) {
   solver_ = solver;
   factor_ = {};

@@ -18,6 +18,10 @@ namespace dpe {
 
 class BlockSolver {
  public:
+  // With fewer columns than this the Krylov method, where a system has it, is cheaper
+  // than a factorisation.
+  static constexpr int kMinColumnsToFactorize = 12;
+
   explicit BlockSolver(const BlockPattern& pattern) : pattern_(pattern) {}
 
   // Prepares for `solver`'s matrix, whose values must be assembled; `solver` must stay

@@ -32,6 +32,14 @@ struct StateDerivative {
   SparseRows d_velocity;  // rows x 3N, or 0 x 0 if the rows do not depend on velocity
 };
 
+// Predicted work of a Jacobian, in a unit that means nothing but that both share it.
+// That of the tangent grows with steps x parameters, that of the adjoint with the sum
+// over residual rows of the steps before the last frame that they depend on.
+struct JacobianCosts {
+  double tangent = 0.0;
+  double adjoint = 0.0;
+};
+
 struct ObjectRecord;
 
 class Sensitivity {
@@ -61,12 +69,16 @@ class Sensitivity {
   // @return          num_rows x layout().size()
   RowMajorMatrix Jacobian(const std::vector<StateDerivative>& derivatives, int num_rows,
                           JacobianMethod method = JacobianMethod::kAuto);
-  // The same into `jacobian`, whose memory is used again if it has that shape.
+
+  // The same into a matrix that is resized as needed: whoever asks again and again
+  // saves the system a large allocation.
   void Jacobian(const std::vector<StateDerivative>& derivatives, int num_rows,
                 JacobianMethod method, RowMajorMatrix* jacobian);
 
-  // What kAuto would choose: work of the tangent grows with steps x parameters, that of
-  // the adjoint with the sum over residual rows of the steps before their frame.
+  // The predicted work of Jacobian by either method.
+  JacobianCosts PredictCosts(const std::vector<StateDerivative>& derivatives) const;
+
+  // What kAuto would choose: the method with less predicted work.
   JacobianMethod CheaperMethod(const std::vector<StateDerivative>& derivatives) const;
 
   // False after a derivative pass whose linear systems could not be solved.

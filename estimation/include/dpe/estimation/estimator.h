@@ -3,6 +3,7 @@
 #define DPE_ESTIMATION_ESTIMATOR_H_
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -54,6 +55,8 @@ struct EstimatorOptions {
   int max_iterations = -1;  // negative: 200 for LM, 5000 for L-BFGS
   double max_seconds = 1e9;
   int num_threads = 1;
+  // What the fit's rollouts may keep beyond their trajectories, see SimulatorOptions.
+  std::size_t memory_limit_bytes = SimulatorOptions().memory_limit_bytes;
   int num_frames = 0;  // frames to fit; <= 0: as many as were observed
 
   // SolverType::kAuto takes LM as long as its dense Jacobian (8 bytes x residuals x

@@ -9,6 +9,7 @@
 #define DPE_ESTIMATION_TRAJECTORY_EVALUATOR_H_
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -25,7 +26,8 @@ namespace dpe {
 struct TrajectoryEvaluatorOptions {
   JacobianMethod jacobian = JacobianMethod::kAuto;
   int num_threads = 1;
-  Timings* timings = nullptr;  // as in SimulatorOptions
+  std::size_t memory_limit_bytes = SimulatorOptions().memory_limit_bytes;
+  Timings* timings = nullptr;  // both as in SimulatorOptions
   // Polled once per step; true makes the evaluation in progress fail.
   std::function<bool()> interrupted;
 };
