@@ -33,7 +33,7 @@ const std::shared_ptr<CholeskyAnalysis>& StepSolverContext::analysis() {
 
 size_t StepSolverContext::solver_bytes() {
   const size_t values = pattern.num_nonzeros() * sizeof(double);
-  if (iterative) return values + 9 * pattern.num_nodes() * sizeof(double);
+  if (iterative) return values;
   return values + analysis()->factor_bytes();
 }
 
@@ -48,7 +48,8 @@ StepSolver::StepSolver(std::shared_ptr<StepSolverContext> context)
 bool StepSolver::Factorize(bool symmetric) {
   const ScopedTimer timer(context_->timings, TimedPart::kFactorization);
   symmetric_ = symmetric;
-  iterative_ = context_->iterative && jacobi_.Compute(pattern_, values_);
+  iterative_ = context_->iterative;
+  matrix_ = context_->num_matrices++;
   factorized_ = iterative_ || FactorizeDirectly();
   return factorized_;
 }
@@ -72,8 +73,8 @@ bool StepSolver::FactorizeDirectly() {
 
 bool StepSolver::KeepFactorization() {
   if (iterative_) {
-    iterative_ = jacobi_.Compute(pattern_, values_);
-    return iterative_ || FactorizeDirectly();
+    matrix_ = context_->num_matrices++;
+    return true;
   }
   symmetric_ = false;
   return !has_lu_ || FactorizeLu();  // LU has no iteration that could make up
@@ -81,25 +82,37 @@ bool StepSolver::KeepFactorization() {
 
 bool StepSolver::Solve(const double* b, double* z, bool transposed,
                        const double* guess) {
+  const bool prepared = iterative_ && PrepareKrylov(transposed);
   const ScopedTimer timer(context_->timings, TimedPart::kSolve);
   if (!iterative_) return SolveDirectly(b, z, transposed);
-  if (SolveByKrylov(b, z, transposed, guess)) return true;
+  const int n = pattern_.num_rows();
+  context_->right.assign(b, b + n);  // b and z may be the same array
+  if (prepared && SolveByKrylov(z, guess)) return true;
   iterative_ = false;
   return FactorizeDirectly() && SolveDirectly(context_->right.data(), z, transposed);
 }
 
-bool StepSolver::SolveByKrylov(const double* b, double* z, bool transposed,
-                               const double* guess) {
+bool StepSolver::PrepareKrylov(bool transposed) {
+  StepSolverContext& context = *context_;
+  if (context.prepared_matrix == matrix_ && context.prepared_transposed == transposed) {
+    return true;
+  }
+  const ScopedTimer timer(context.timings, TimedPart::kFactorization);
+  context.prepared_matrix = -1;
+  if (!context.krylov.Prepare(values_, transposed)) return false;
+  context.prepared_matrix = matrix_;
+  context.prepared_transposed = transposed;
+  return true;
+}
+
+bool StepSolver::SolveByKrylov(double* z, const double* guess) {
   const int n = pattern_.num_rows();
-  context_->right.assign(b, b + n);  // b and z may be the same array
   if (guess != nullptr) {
     std::copy_n(guess, n, z);
   } else {
     std::fill_n(z, n, 0.0);
   }
-  return SolveIteratively(pattern_, values_, jacobi_, symmetric_, transposed,
-                          context_->tolerance, context_->right.data(), z,
-                          &context_->iterative_work)
+  return context_->krylov.Solve(context_->tolerance, context_->right.data(), z)
       .converged;
 }
 

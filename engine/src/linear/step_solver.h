@@ -31,7 +31,8 @@ namespace dpe {
 // What the solvers of one object share; they take turns on one thread.
 struct StepSolverContext {
   // The pattern must outlive the context.
-  explicit StepSolverContext(const BlockPattern& pattern) : pattern(pattern) {}
+  explicit StepSolverContext(const BlockPattern& pattern)
+      : pattern(pattern), krylov(pattern) {}
 
   // Bytes that a factorised StepSolver takes.
   size_t solver_bytes();
@@ -42,7 +43,12 @@ struct StepSolverContext {
   bool iterative = false;
   double tolerance = 1e-12;    // of the Krylov method
   Timings* timings = nullptr;  // if set, receives the time of factorising and solving
-  IterativeWorkspace iterative_work;
+  IterativeSolver krylov;
+  // Matrices are numbered as they are factorised; the one that `krylov` is prepared for,
+  // or -1.
+  long num_matrices = 0;
+  long prepared_matrix = -1;
+  bool prepared_transposed = false;
   std::vector<double> symmetric_values;
   std::vector<double> basis, work, residual, right;  // of GMRES
 
@@ -87,7 +93,9 @@ class StepSolver {
 
   bool FactorizeDirectly();
   bool SolveDirectly(const double* b, double* z, bool transposed);
-  bool SolveByKrylov(const double* b, double* z, bool transposed, const double* guess);
+  bool PrepareKrylov(bool transposed);
+  // Solves for context_->right.
+  bool SolveByKrylov(double* z, const double* guess);
   void Multiply(const double* x, double* y, bool transposed) const;
   bool SolveByGmres(const double* b, double* z, bool transposed);
   // One restart cycle; returns the norm of the residual that it reached.
@@ -99,9 +107,9 @@ class StepSolver {
   std::shared_ptr<StepSolverContext> context_;
   const BlockPattern& pattern_;
   std::vector<double> values_;
-  BlockJacobi jacobi_;
   std::unique_ptr<Cholesky> cholesky_;
   bool iterative_ = false;  // the matrix at hand is solved by the Krylov method
+  long matrix_ = -1;        // its number
   bool factorized_ = false;
   bool symmetric_ = true;
   std::unique_ptr<SparseLU> lu_;  // last resort

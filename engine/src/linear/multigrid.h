@@ -1,0 +1,62 @@
+// An algebraic multigrid preconditioner: an approximate inverse of A or A^T whose
+// quality hardly depends on the number of vertices.
+//
+// One V-cycle: a forward sweep of block Gauss-Seidel, the correction by the next
+// coarser level (prolongation.h), a backward sweep. On the coarsest level the equations
+// are solved. The hierarchy is built from the matrix alone. Which nodes form an
+// aggregate is decided by the first matrix that is set up and then kept, so that a new
+// matrix costs no more than about three sweeps.
+//
+// The sweeps use A itself, with its non-symmetric part: with the symmetric part only,
+// iterations on fine cloths rise by a fifth to a half.
+#ifndef DPE_ENGINE_LINEAR_MULTIGRID_H_
+#define DPE_ENGINE_LINEAR_MULTIGRID_H_
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <vector>
+
+#include "linear/block_pattern.h"
+#include "linear/block_rows.h"
+#include "linear/prolongation.h"
+
+namespace dpe {
+
+class Multigrid {
+ public:
+  // @param values  of A in `pattern`; the preconditioner is for A^T if `transposed`
+  // @return        false if there is none: a diagonal block is singular, or something is
+  //                not finite
+  bool Compute(const BlockPattern& pattern, const double* values, bool transposed);
+
+  // z ~ c A^{-1} r with an unknown factor c > 0, which Krylov methods do not notice. `r`
+  // is scaled by `factor` first; that should bring it near 1.
+  void Apply(const double* r, double factor, float* z);
+
+  int num_levels() const { return static_cast<int>(levels_.size()); }
+  // Blocks on all levels per block of the finest.
+  double complexity() const;
+
+ private:
+  struct Level {
+    BlockRows matrix;
+    std::vector<Prolongation> coarser;  // to the next level; empty on the last
+    std::vector<float> r, z, residual;
+  };
+
+  void CopyMatrix(const BlockPattern& pattern, const double* values, bool transposed);
+  void AddLevel(BlockRows matrix);
+  bool FactorizeCoarsest();
+  void Cycle(int level);
+
+  std::vector<Level> levels_;
+  bool built_ = false;
+  bool dense_ = false;  // the coarsest level is solved densely
+  Eigen::MatrixXf coarsest_;
+  Eigen::PartialPivLU<Eigen::MatrixXf> lu_;
+  std::vector<int> next_;  // of CopyMatrix
+};
+
+}  // namespace dpe
+
+#endif  // DPE_ENGINE_LINEAR_MULTIGRID_H_
