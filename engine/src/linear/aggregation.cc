@@ -34,18 +34,22 @@ Aggregates Match(const Graph& graph) {
 
 // The graph whose nodes are the groups.
 Graph Contract(const Graph& graph, const Aggregates& groups) {
-  std::vector<std::vector<int>> members(groups.count);
-  for (int i = 0; i < graph.num_nodes(); ++i) members[groups.of_node[i]].push_back(i);
+  std::vector<int> first(groups.count + 1, 0);
+  for (int g : groups.of_node) ++first[g + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> members(graph.num_nodes()), next = first;
+  for (int i = 0; i < graph.num_nodes(); ++i) members[next[groups.of_node[i]]++] = i;
   Graph coarse;
   coarse.starts.push_back(0);
   std::vector<int> place(groups.count, -1);
   for (int g = 0; g < groups.count; ++g) {
-    const int first = coarse.starts.back();
-    for (int i : members[g]) {
+    const int start = coarse.starts.back();
+    for (int m = first[g]; m < first[g + 1]; ++m) {
+      const int i = members[m];
       for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k) {
         const int h = groups.of_node[graph.columns[k]];
         if (h == g) continue;
-        if (place[h] < first) {
+        if (place[h] < start) {
           place[h] = static_cast<int>(coarse.columns.size());
           coarse.columns.push_back(h);
           coarse.weights.push_back(0.0f);

@@ -44,34 +44,50 @@ inline void StoreSolution(const float* inverse, Float4 v, float* out) {
         out);
 }
 
+using Rows = BlockRows::Rows;
+
 DPE_VECTORIZE
-void Forward(const int* starts, const int* columns, const int* diagonal, int num_nodes,
-             const float* values, const float* inverses, const float* r, float* z) {
-  for (int i = 0; i < num_nodes; ++i) {
-    StoreSolution(
-        inverses + 12 * static_cast<size_t>(i),
-        Subtract(values, columns, starts[i], diagonal[i], z, Load(r + 3 * i)),
-        z + 3 * i);
+void Forward(Rows a, const float* r, float* z) {
+  for (int i = 0; i < a.num_nodes; ++i) {
+    StoreSolution(a.inverses + 12 * static_cast<size_t>(i),
+                  Subtract(a.values, a.columns, a.lower_starts[i],
+                           a.lower_starts[i + 1], z, Load(r + 3 * i)),
+                  z + 3 * i);
   }
 }
 
 DPE_VECTORIZE
-void MinusUpper(const int* starts, const int* columns, const int* diagonal,
-                int num_nodes, const float* values, const float* z, float* residual) {
-  for (int i = 0; i < num_nodes; ++i) {
-    Store(Subtract(values, columns, diagonal[i] + 1, starts[i + 1], z, Float4{}),
+void MinusUpper(Rows a, const float* z, float* residual) {
+  for (int i = 0; i < a.num_nodes; ++i) {
+    Store(Subtract(a.values, a.columns, a.upper_starts[i], a.upper_starts[i + 1], z,
+                   Float4{}),
           residual + 3 * i);
   }
 }
 
 DPE_VECTORIZE
-void Backward(const int* starts, const int* columns, const int* diagonal, int num_nodes,
-              const float* values, const float* inverses, const float* r, float* z) {
-  for (int i = num_nodes - 1; i >= 0; --i) {
+void Backward(Rows a, const float* r, float* z) {
+  for (int i = a.num_nodes - 1; i >= 0; --i) {
     Float4 sum = Load(r + 3 * i);
-    sum = Subtract(values, columns, starts[i], diagonal[i], z, sum);
-    sum = Subtract(values, columns, diagonal[i] + 1, starts[i + 1], z, sum);
-    StoreSolution(inverses + 12 * static_cast<size_t>(i), sum, z + 3 * i);
+    sum = Subtract(a.values, a.columns, a.lower_starts[i], a.lower_starts[i + 1], z,
+                   sum);
+    sum = Subtract(a.values, a.columns, a.upper_starts[i], a.upper_starts[i + 1], z,
+                   sum);
+    StoreSolution(a.inverses + 12 * static_cast<size_t>(i), sum, z + 3 * i);
+  }
+}
+
+DPE_VECTORIZE
+void Product(Rows a, const float* x, float* y) {
+  const int first_diagonal = a.lower_starts[a.num_nodes];
+  for (int i = 0; i < a.num_nodes; ++i) {
+    Float4 sum = Subtract(a.values, a.columns, a.lower_starts[i], a.lower_starts[i + 1],
+                          x, Float4{});
+    sum = Subtract(a.values, a.columns, first_diagonal + i, first_diagonal + i + 1, x,
+                   sum);
+    sum = Subtract(a.values, a.columns, a.upper_starts[i], a.upper_starts[i + 1], x,
+                   sum);
+    Store(-sum, y + 3 * i);
   }
 }
 
@@ -79,15 +95,27 @@ void Backward(const int* starts, const int* columns, const int* diagonal, int nu
 
 BlockRows::BlockRows(std::vector<int> starts, std::vector<int> columns)
     : starts_(std::move(starts)), columns_(std::move(columns)) {
-  const int num_nodes = static_cast<int>(starts_.size()) - 1;
-  for (int i = 0; i < num_nodes; ++i) {
+  const int n = static_cast<int>(starts_.size()) - 1;
+  lower_starts_.push_back(0);
+  for (int i = 0; i < n; ++i) {
     const auto first = columns_.begin() + starts_[i];
     const auto last = columns_.begin() + starts_[i + 1];
     diagonal_.push_back(
         static_cast<int>(std::lower_bound(first, last, i) - columns_.begin()));
+    lower_starts_.push_back(lower_starts_[i] + diagonal_[i] - starts_[i]);
+  }
+  upper_starts_.push_back(lower_starts_[n] + n);
+  for (int i = 0; i < n; ++i) {
+    upper_starts_.push_back(upper_starts_[i] + starts_[i + 1] - diagonal_[i] - 1);
+  }
+  block_columns_.resize(columns_.size());
+  for (int i = 0; i < n; ++i) {
+    for (int k = starts_[i]; k < starts_[i + 1]; ++k) {
+      block_columns_[place(i, k)] = columns_[k];
+    }
   }
   values_.resize(9 * columns_.size() + kPadding);
-  inverses_.resize(12 * static_cast<size_t>(num_nodes));
+  inverses_.resize(12 * static_cast<size_t>(n));
 }
 
 void BlockRows::SetZero() { std::fill(values_.begin(), values_.end(), 0.0f); }
@@ -95,7 +123,7 @@ void BlockRows::SetZero() { std::fill(values_.begin(), values_.end(), 0.0f); }
 bool BlockRows::InvertDiagonal() {
   using Block = Eigen::Matrix3f;
   for (int i = 0; i < num_nodes(); ++i) {
-    const Block inverse = Eigen::Map<const Block>(block(diagonal_[i])).inverse();
+    const Block inverse = Eigen::Map<const Block>(block(i, diagonal_[i])).inverse();
     if (!inverse.allFinite()) return false;
     Eigen::Map<Eigen::Matrix<float, 4, 3>>(inverses_.data() +
                                            12 * static_cast<size_t>(i))
@@ -104,16 +132,22 @@ bool BlockRows::InvertDiagonal() {
   return true;
 }
 
+void BlockRows::Multiply(const float* x, float* y) const {
+  Product(rows(), x, y);
+}
+
 void BlockRows::SweepForward(const float* r, float* z, float* residual) const {
-  Forward(starts_.data(), columns_.data(), diagonal_.data(), num_nodes(), values(),
-          inverses_.data(), r, z);
-  MinusUpper(starts_.data(), columns_.data(), diagonal_.data(), num_nodes(), values(),
-             z, residual);
+  Forward(rows(), r, z);
+  MinusUpper(rows(), z, residual);
 }
 
 void BlockRows::SweepBackward(const float* r, float* z) const {
-  Backward(starts_.data(), columns_.data(), diagonal_.data(), num_nodes(), values(),
-           inverses_.data(), r, z);
+  Backward(rows(), r, z);
+}
+
+BlockRows::Rows BlockRows::rows() const {
+  return {num_nodes(),           lower_starts_.data(), upper_starts_.data(),
+          block_columns_.data(), values_.data(),       inverses_.data()};
 }
 
 }  // namespace dpe

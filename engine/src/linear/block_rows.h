@@ -16,6 +16,16 @@ namespace dpe {
 
 class BlockRows {
  public:
+  // What kernels read of a matrix.
+  struct Rows {
+    int num_nodes;
+    const int* lower_starts;
+    const int* upper_starts;
+    const int* columns;  // by place
+    const float* values;
+    const float* inverses;
+  };
+
   BlockRows() = default;
   // @param starts, columns  row i has its blocks in columns[k], starts[i] <= k <
   //                         starts[i + 1], sorted; the diagonal must be among them
@@ -25,21 +35,33 @@ class BlockRows {
   int num_blocks() const { return static_cast<int>(columns_.size()); }
   const std::vector<int>& starts() const { return starts_; }
   const std::vector<int>& columns() const { return columns_; }
-  // Where the diagonal block of each row is.
+  // Where the diagonal block of each row is among its columns.
   const std::vector<int>& diagonal() const { return diagonal_; }
 
-  // Nine numbers per block, column by column.
+  // Nine numbers per block, column by column. Blocks are in the order L, D, U, each by
+  // rows, so that a sweep over one of them reads nothing else: block `k` of row `i` is
+  // at place(i, k).
   float* values() { return values_.data(); }
   const float* values() const { return values_.data(); }
-  const float* block(int k) const {
-    return values_.data() + 9 * static_cast<size_t>(k);
+  int place(int i, int k) const {
+    if (k < diagonal_[i]) return lower_starts_[i] + k - starts_[i];
+    if (k == diagonal_[i]) return lower_starts_[num_nodes()] + i;
+    return upper_starts_[i] + k - diagonal_[i] - 1;
   }
+  const float* block(int i, int k) const {
+    return values_.data() + 9 * static_cast<size_t>(place(i, k));
+  }
+  const std::vector<int>& lower_starts() const { return lower_starts_; }
+  const std::vector<int>& upper_starts() const { return upper_starts_; }
+  Rows rows() const;
   void SetZero();
 
   // Inverts the diagonal blocks, which the sweeps need. False if one is singular or not
   // finite.
   bool InvertDiagonal();
 
+  // y := A x; x and y must not overlap.
+  void Multiply(const float* x, float* y) const;
   // z := (L + D)^{-1} r, and residual := -U z, which is r - A z.
   void SweepForward(const float* r, float* z, float* residual) const;
   // z := (D + U)^{-1} (r - L z).
@@ -47,6 +69,9 @@ class BlockRows {
 
  private:
   std::vector<int> starts_, columns_, diagonal_;
+  // Where the rows of L and U start among the blocks.
+  std::vector<int> lower_starts_, upper_starts_;
+  std::vector<int> block_columns_;  // by place
   std::vector<float> values_;
   std::vector<float> inverses_;  // per node three columns of four numbers
 };

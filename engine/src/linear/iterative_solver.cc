@@ -10,9 +10,21 @@
 namespace dpe {
 namespace {
 
-// Where so many directions do not reduce the residual by this factor a factorisation is
-// the better way.
+// The residual that counts as reached while its recursion has yet to be verified, and
+// the reduction at which it is verified in any case: single precision carries no
+// further.
+constexpr double kMargin = 0.8;
+constexpr double kReduction = 1e-5;
+// Where verification finds that rounding has kept the residual this many times above
+// the recursion, the next time it comes that much earlier.
+constexpr double kLeastReduction = 1e-2;
+// Where a restart's directions do not reduce the residual by this factor a
+// factorisation is the better way.
 constexpr double kProgress = 0.1;
+
+double Norm(const std::vector<double>& x) {
+  return std::sqrt(Dot(x.size(), x.data(), x.data()));
+}
 
 }  // namespace
 
@@ -31,34 +43,30 @@ void IterativeSolver::Multiply(const double* x, double* y) const {
 }
 
 double IterativeSolver::TrueResidual(const double* b, const double* z) {
-  Multiply(z, r_.data());
-  SubtractFrom(r_.size(), b, r_.data());
-  return std::sqrt(Dot(r_.size(), r_.data(), r_.data()));
+  Multiply(z, residual_.data());
+  SubtractScaled(residual_.size(), b, 1.0, residual_.data());
+  return Norm(residual_);
 }
 
 double IterativeSolver::Start(const double* b, double* z) {
-  const size_t n = r_.size();
-  if (Dot(n, z, z) == 0.0) {
-    std::copy(b, b + n, r_.begin());
-    return std::sqrt(Dot(n, b, b));
+  const size_t n = residual_.size();
+  double c = 0.0;
+  if (Dot(n, z, z) > 0.0) {
+    // A guess of the right shape and the wrong size is a good guess.
+    Multiply(z, residual_.data());
+    c = Dot(n, residual_.data(), b) / Dot(n, residual_.data(), residual_.data());
   }
-  // A guess of the right shape and the wrong size is a good guess.
-  Multiply(z, r_.data());
-  const double square = Dot(n, r_.data(), r_.data());
-  const double c = square > 0.0 ? Dot(n, r_.data(), b) / square : 0.0;
-  if (!std::isfinite(c)) {
+  if (c == 0.0 || !std::isfinite(c)) {
     std::fill(z, z + n, 0.0);
-    std::copy(b, b + n, r_.data());
+    std::copy(b, b + n, residual_.begin());
   } else {
-    for (size_t i = 0; i < n; ++i) {
-      z[i] *= c;
-      r_[i] = b[i] - c * r_[i];
-    }
+    Scale(n, c, z, z);
+    SubtractScaled(n, b, c, residual_.data());
   }
-  return std::sqrt(Dot(n, r_.data(), r_.data()));
+  return Norm(residual_);
 }
 
-double IterativeSolver::Iterate(double norm) {
+bool IterativeSolver::AddDirection() {
   const size_t n = r_.size();
   if (static_cast<int>(directions_.size()) == num_directions_) {
     directions_.emplace_back();
@@ -66,55 +74,64 @@ double IterativeSolver::Iterate(double norm) {
     directions_.back().q.resize(n);
   }
   Direction& d = directions_[num_directions_];
-  multigrid_.Apply(r_.data(), 1.0 / norm, d.u.data());
-  std::copy(d.u.begin(), d.u.end(), work_.begin());
-  Multiply(work_.data(), d.q.data());
+  float* q = d.q.data();
+  multigrid_.Apply(r_.data(), d.u.data());
+  multigrid_.matrix().Multiply(d.u.data(), q);
   for (int i = 0; i < num_directions_; ++i) {
-    const double* q = directions_[i].q.data();
-    d.h[i] = Dot(n, q, d.q.data());
-    AddScaled(n, -d.h[i], q, d.q.data());
+    const float* other = directions_[i].q.data();
+    d.h[i] = Dot(n, other, q);
+    AddScaled(n, -d.h[i], other, q);
   }
-  const double length = std::sqrt(Dot(n, d.q.data(), d.q.data()));
-  d.h[num_directions_] = length;
-  if (!(length > 0.0)) return std::numeric_limits<double>::quiet_NaN();
-  Scale(n, 1.0 / length, d.q.data());
-  d.a = Dot(n, d.q.data(), r_.data());
-  AddScaled(n, -d.a, d.q.data(), r_.data());
-  ++num_directions_;
-  return std::sqrt(Dot(n, r_.data(), r_.data()));
+  const float length = std::sqrt(Dot(n, q, q));
+  if (!(length > 0.0f) || !std::isfinite(length)) return false;
+  d.h[num_directions_++] = length;
+  Scale(n, 1.0f / length, q, q);
+  const float a = Dot(n, q, r_.data());
+  AddScaled(n, -a, q, r_.data());
+  d.a = a;
+  return true;
 }
 
-void IterativeSolver::AddDirections(double* z) {
-  for (int i = num_directions_ - 1; i >= 0; --i) {
-    Direction& d = directions_[i];
-    d.a /= d.h[i];
-    for (int k = 0; k < i; ++k) directions_[k].a -= d.h[k] * d.a;
-    AddScaled(r_.size(), d.a, d.u.data(), z);
-  }
+bool IterativeSolver::Reduce(double reduction, double norm, double* z) {
+  const size_t n = r_.size();
   num_directions_ = 0;
+  Scale(n, 1.0 / norm, residual_.data(), r_.data());
+  double reached = 1.0;
+  while (reached > reduction && num_directions_ < kDirections) {
+    if (!AddDirection()) return false;
+    reached = std::sqrt(Dot(n, r_.data(), r_.data()));
+    if (!std::isfinite(reached)) return false;
+  }
+  // z += sum_j y_j u_j with H y = a, in the scale of the preconditioner's matrix.
+  const double scale = norm * multigrid_.scale();
+  for (int j = num_directions_ - 1; j >= 0; --j) {
+    const double y = directions_[j].a / directions_[j].h[j];
+    for (int i = 0; i < j; ++i) directions_[i].a -= directions_[j].h[i] * y;
+    AddScaled(n, scale * y, directions_[j].u.data(), z);
+  }
+  return true;
 }
 
 IterativeResult IterativeSolver::Solve(double tolerance, const double* b, double* z) {
   const size_t n = static_cast<size_t>(pattern_.num_rows());
+  residual_.resize(n);
   r_.resize(n);
-  work_.resize(n);
-  num_directions_ = 0;
   const double target = tolerance * std::sqrt(Dot(n, b, b));
   IterativeResult result;
   double norm = Start(b, z);
-  double norm_before = std::numeric_limits<double>::infinity();
+  double least_reduction = kReduction;
   while (std::isfinite(norm)) {
     result.converged = norm <= target;
-    if (result.converged || !(norm <= kProgress * norm_before)) break;
-    norm_before = norm;
-    while (norm > target && num_directions_ < kDirections) {
-      norm = Iterate(norm);
-      ++result.iterations;
-    }
-    if (!std::isfinite(norm)) break;
-    AddDirections(z);
-    // The recursion for r drifts away from the residual; only the latter counts.
+    if (result.converged) break;
+    const double reduction = std::max(kMargin * target / norm, least_reduction);
+    const double norm_before = norm;
+    const bool ok = Reduce(reduction, norm, z);
+    result.iterations += num_directions_;
+    if (!ok) break;
     norm = TrueResidual(b, z);
+    if (!(norm <= target) && !(norm <= kProgress * norm_before)) break;
+    least_reduction =
+        std::min(std::max(norm / norm_before, kReduction), kLeastReduction);
   }
   return result;
 }

@@ -3,13 +3,18 @@
 //
 // The generalised conjugate residual method (Eisenstat, Elman & Schultz 1983), which is
 // flexible GMRES (Saad 1993) in other words, preconditioned by one multigrid cycle M
-// (multigrid.h) and restarted after m directions u with orthonormal q:
-//   u_j = M r,  h_jj q_j = A u_j - sum_i<j h_ij q_i,  a_j = q_j.r,  r -= a_j q_j;
-//   at the end z += sum_j y_j u_j with H y = a.
-// Each iteration takes one product and one cycle and makes the residual no larger,
-// whatever A is: symmetric or not, definite or not. As M is nearly as good as A^{-1},
-// there are few directions, and keeping them all costs little; on indefinite matrices
-// (compressed springs) keeping only the last ones would lose convergence altogether.
+// (multigrid.h). From r = b - A z it makes directions u with orthonormal q,
+//   u_j = M r,  h_jj q_j = A u_j - sum_i<j h_ij q_i,  a_j = q_j.r,  r -= a_j q_j,
+// and at last z += sum_j y_j u_j with H y = a. Each takes one product and one cycle and
+// makes the residual no larger, whatever A is: symmetric or not, definite or not. As M
+// is nearly as good as A^{-1}, there are few directions, and keeping them all costs
+// little; on indefinite matrices (compressed springs) keeping only the last ones loses
+// convergence altogether.
+//
+// All that is done in single precision, which halves the memory to be read; but the
+// residual that it starts from is computed in double precision, and again at the end,
+// and what is left to the tolerance is made up by starting over (iterative refinement,
+// Carson & Higham 2018). So z is as good as if all were double.
 #ifndef DPE_ENGINE_LINEAR_ITERATIVE_SOLVER_H_
 #define DPE_ENGINE_LINEAR_ITERATIVE_SOLVER_H_
 
@@ -47,27 +52,29 @@ class IterativeSolver {
   static constexpr int kDirections = 40;
 
   struct Direction {
-    std::vector<float> u;  // as single as M
-    std::vector<double> q;
-    double h[kDirections];  // column of H
+    std::vector<float> u, q;
+    float h[kDirections];  // column of H
     double a = 0.0;
   };
 
   void Multiply(const double* x, double* y) const;
-  // z := c z for the best c, and r_ := b - A z. Returns |r_|.
+  // z := c z for the best c. Like TrueResidual for that.
   double Start(const double* b, double* z);
-  // r_ := b - A z. Returns its norm.
+  // residual_ := b - A z. Returns its norm.
   double TrueResidual(const double* b, const double* z);
-  // Adds a direction and reduces r_ along it. Returns its new norm, NaN on a breakdown.
-  double Iterate(double norm);
-  // z += sum_j y_j u_j, and forgets the directions.
-  void AddDirections(double* z);
+  // Improves z until the residual, which has norm `norm`, is reduced by the factor
+  // `reduction`, as far as single precision can tell, or there are kDirections
+  // directions. False on a breakdown.
+  bool Reduce(double reduction, double norm, double* z);
+  // Adds a direction and reduces r_ along it. False on a breakdown.
+  bool AddDirection();
 
   const BlockPattern& pattern_;
   const double* values_ = nullptr;
   bool transposed_ = false;
   Multigrid multigrid_;
-  std::vector<double> r_, work_;
+  std::vector<double> residual_;
+  std::vector<float> r_;
   std::vector<Direction> directions_;  // the first num_directions_
   int num_directions_ = 0;
 };

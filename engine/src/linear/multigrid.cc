@@ -31,34 +31,53 @@ double Scale(const BlockPattern& pattern, const std::vector<int>& diagonal,
   return std::ldexp(1.0, -std::ilogb(largest));
 }
 
-// Rows of A^T are columns of A.
-DPE_VECTORIZE
-void CopyColumns(const int* starts, int num_nodes, const double* values, float scale,
-                 float* out) {
-  for (int j = 0; j < num_nodes; ++j) {
-    const int count = starts[j + 1] - starts[j];
-    const double* column = values + 9 * static_cast<size_t>(starts[j]);
-    const int stride = 3 * count;
-    for (int k = 0; k < count; ++k, column += 3, out += 9) {
-      for (int c = 0; c < 3; ++c) {
-        for (int r = 0; r < 3; ++r) {
-          out[3 * c + r] = scale * static_cast<float>(column[r * stride + c]);
-        }
+// Rows of A^T are columns of A: blocks [first, last) of column j, in places from
+// `place` on.
+inline void CopyColumn(const double* column, int stride, int first, int last,
+                       float scale, float* out) {
+  for (int k = first; k < last; ++k, out += 9) {
+    for (int c = 0; c < 3; ++c) {
+      for (int r = 0; r < 3; ++r) {
+        out[3 * c + r] = scale * static_cast<float>(column[3 * k + r * stride + c]);
       }
     }
   }
 }
 
-// `next` holds the starts of the rows and is used up.
 DPE_VECTORIZE
-void CopyRows(const int* starts, const int* rows, int num_nodes, const double* values,
-              float scale, int* next, float* out) {
-  for (int j = 0; j < num_nodes; ++j) {
-    const int count = starts[j + 1] - starts[j];
+void CopyTransposed(const int* starts, const int* diagonal, const double* values,
+                    float scale, BlockRows::Rows rows, float* out) {
+  const size_t first_diagonal = rows.lower_starts[rows.num_nodes];
+  for (int j = 0; j < rows.num_nodes; ++j) {
+    const int count = starts[j + 1] - starts[j], own = diagonal[j] - starts[j];
     const double* column = values + 9 * static_cast<size_t>(starts[j]);
-    const int stride = 3 * count;
-    for (int k = 0; k < count; ++k, column += 3) {
-      float* block = out + 9 * static_cast<size_t>(next[rows[starts[j] + k]]++);
+    CopyColumn(column, 3 * count, 0, own, scale,
+               out + 9 * static_cast<size_t>(rows.lower_starts[j]));
+    CopyColumn(column, 3 * count, own, own + 1, scale, out + 9 * (first_diagonal + j));
+    CopyColumn(column, 3 * count, own + 1, count, scale,
+               out + 9 * static_cast<size_t>(rows.upper_starts[j]));
+  }
+}
+
+// `next` is scratch space: the place of each row's next block. Columns come in order,
+// so that rows are filled from their first block to their last.
+DPE_VECTORIZE
+void CopyRows(const int* starts, const int* row_of_block, const double* values,
+              float scale, BlockRows::Rows rows, int* next, float* out) {
+  const size_t first_diagonal = rows.lower_starts[rows.num_nodes];
+  for (int i = 0; i < rows.num_nodes; ++i) next[i] = rows.lower_starts[i];
+  for (int j = 0; j < rows.num_nodes; ++j) {
+    const int stride = 3 * (starts[j + 1] - starts[j]);
+    const double* column = values + 9 * static_cast<size_t>(starts[j]);
+    for (int k = starts[j]; k < starts[j + 1]; ++k, column += 3) {
+      const int i = row_of_block[k];
+      size_t place = first_diagonal + j;
+      if (i != j) {
+        place = next[i]++;
+      } else {
+        next[i] = rows.upper_starts[i];
+      }
+      float* block = out + 9 * place;
       for (int c = 0; c < 3; ++c) {
         for (int r = 0; r < 3; ++r) {
           block[3 * c + r] = scale * static_cast<float>(column[c * stride + r]);
@@ -74,10 +93,7 @@ void Multigrid::AddLevel(BlockRows matrix) {
   levels_.emplace_back();
   Level& level = levels_.back();
   level.matrix = std::move(matrix);
-  const size_t n = 3 * static_cast<size_t>(level.matrix.num_nodes());
-  level.r.resize(n);
-  level.z.resize(n);
-  level.residual.resize(n);
+  level.residual.resize(3 * static_cast<size_t>(level.matrix.num_nodes()));
 }
 
 bool Multigrid::Compute(const BlockPattern& pattern, const double* values,
@@ -86,23 +102,24 @@ bool Multigrid::Compute(const BlockPattern& pattern, const double* values,
     AddLevel(BlockRows(pattern.block_starts(), pattern.block_rows()));
   }
   BlockRows& finest = levels_[0].matrix;
-  const double scale = Scale(pattern, finest.diagonal(), values);
-  if (scale == 0.0) return false;
+  scale_ = Scale(pattern, finest.diagonal(), values);
+  if (scale_ == 0.0) return false;
   if (transposed) {
-    CopyColumns(pattern.block_starts().data(), pattern.num_nodes(), values,
-                static_cast<float>(scale), finest.values());
+    CopyTransposed(pattern.block_starts().data(), finest.diagonal().data(), values,
+                   static_cast<float>(scale_), finest.rows(), finest.values());
   } else {
-    next_ = pattern.block_starts();
-    CopyRows(pattern.block_starts().data(), pattern.block_rows().data(),
-             pattern.num_nodes(), values, static_cast<float>(scale), next_.data(),
-             finest.values());
+    next_.resize(pattern.num_nodes());
+    CopyRows(pattern.block_starts().data(), pattern.block_rows().data(), values,
+             static_cast<float>(scale_), finest.rows(), next_.data(), finest.values());
   }
   for (size_t l = 0;; ++l) {
     if (!levels_[l].matrix.InvertDiagonal()) return false;
     if (!built_ && levels_[l].matrix.num_nodes() > kDenseNodes && l < kMaxLevels) {
-      Prolongation coarser(levels_[l].matrix);
+      BlockRows coarse;
+      Prolongation coarser(levels_[l].matrix, &coarse);
       if (coarser.num_coarse() < kMaxRatio * levels_[l].matrix.num_nodes()) {
-        BlockRows coarse = coarser.MakeCoarse();
+        levels_[l].coarse_r.resize(3 * static_cast<size_t>(coarse.num_nodes()));
+        levels_[l].coarse_z.resize(3 * static_cast<size_t>(coarse.num_nodes()));
         levels_[l].coarser.push_back(std::move(coarser));
         AddLevel(std::move(coarse));
       }
@@ -122,7 +139,7 @@ bool Multigrid::FactorizeCoarsest() {
   for (int i = 0; i < a.num_nodes(); ++i) {
     for (int k = a.starts()[i]; k < a.starts()[i + 1]; ++k) {
       coarsest_.block<3, 3>(3 * i, 3 * a.columns()[k]) =
-          Eigen::Map<const Eigen::Matrix3f>(a.block(k));
+          Eigen::Map<const Eigen::Matrix3f>(a.block(i, k));
     }
   }
   lu_.compute(coarsest_);
@@ -130,30 +147,21 @@ bool Multigrid::FactorizeCoarsest() {
          lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0f;
 }
 
-void Multigrid::Cycle(int l) {
+void Multigrid::Cycle(int l, const float* r, float* z) {
   Level& level = levels_[l];
   if (level.coarser.empty() && dense_) {
-    const Eigen::Index n = static_cast<Eigen::Index>(level.r.size());
-    Eigen::Map<Eigen::VectorXf>(level.z.data(), n) =
-        lu_.solve(Eigen::Map<const Eigen::VectorXf>(level.r.data(), n));
+    const Eigen::Index n = 3 * static_cast<Eigen::Index>(level.matrix.num_nodes());
+    Eigen::Map<Eigen::VectorXf>(z, n) =
+        lu_.solve(Eigen::Map<const Eigen::VectorXf>(r, n));
     return;
   }
-  level.matrix.SweepForward(level.r.data(), level.z.data(), level.residual.data());
+  level.matrix.SweepForward(r, z, level.residual.data());
   if (!level.coarser.empty()) {
-    Level& next = levels_[l + 1];
-    level.coarser[0].Restrict(level.residual.data(), next.r.data());
-    Cycle(l + 1);
-    level.coarser[0].AddProlonged(next.z.data(), level.z.data());
+    level.coarser[0].Restrict(level.residual.data(), level.coarse_r.data());
+    Cycle(l + 1, level.coarse_r.data(), level.coarse_z.data());
+    level.coarser[0].AddProlonged(level.coarse_z.data(), z);
   }
-  level.matrix.SweepBackward(level.r.data(), level.z.data());
-}
-
-void Multigrid::Apply(const double* r, double factor, float* z) {
-  Level& finest = levels_[0];
-  const size_t n = finest.r.size();
-  for (size_t c = 0; c < n; ++c) finest.r[c] = static_cast<float>(factor * r[c]);
-  Cycle(0);
-  std::copy(finest.z.begin(), finest.z.end(), z);
+  level.matrix.SweepBackward(r, z);
 }
 
 double Multigrid::complexity() const {

@@ -29,9 +29,13 @@ class Multigrid {
   //                not finite
   bool Compute(const BlockPattern& pattern, const double* values, bool transposed);
 
-  // z ~ c A^{-1} r with an unknown factor c > 0, which Krylov methods do not notice. `r`
-  // is scaled by `factor` first; that should bring it near 1.
-  void Apply(const double* r, double factor, float* z);
+  // The matrix that this is for, in single precision and multiplied by scale(), a power
+  // of two that makes its diagonal about 1.
+  const BlockRows& matrix() const { return levels_[0].matrix; }
+  double scale() const { return scale_; }
+
+  // z ~ matrix()^{-1} r.
+  void Apply(const float* r, float* z) { Cycle(0, r, z); }
 
   int num_levels() const { return static_cast<int>(levels_.size()); }
   // Blocks on all levels per block of the finest.
@@ -41,20 +45,20 @@ class Multigrid {
   struct Level {
     BlockRows matrix;
     std::vector<Prolongation> coarser;  // to the next level; empty on the last
-    std::vector<float> r, z, residual;
+    std::vector<float> residual, coarse_r, coarse_z;
   };
 
-  void CopyMatrix(const BlockPattern& pattern, const double* values, bool transposed);
   void AddLevel(BlockRows matrix);
   bool FactorizeCoarsest();
-  void Cycle(int level);
+  void Cycle(int level, const float* r, float* z);
 
   std::vector<Level> levels_;
+  double scale_ = 0.0;
   bool built_ = false;
   bool dense_ = false;  // the coarsest level is solved densely
   Eigen::MatrixXf coarsest_;
   Eigen::PartialPivLU<Eigen::MatrixXf> lu_;
-  std::vector<int> next_;  // of CopyMatrix
+  std::vector<int> next_;  // scratch
 };
 
 }  // namespace dpe

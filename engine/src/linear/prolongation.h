@@ -23,12 +23,12 @@ namespace dpe {
 class Prolongation {
  public:
   // Chooses the aggregates by the couplings in `fine`'s present values.
-  explicit Prolongation(const BlockRows& fine);
+  //
+  // @param coarse  out: a matrix of the coarse pattern, with zeros
+  Prolongation(const BlockRows& fine, BlockRows* coarse);
 
   int num_fine() const { return static_cast<int>(starts_.size()) - 1; }
   int num_coarse() const { return num_coarse_; }
-  // The coarse matrix's pattern, with zeros.
-  BlockRows MakeCoarse() const;
 
   // Computes P and coarse := P^T A P for the values that `fine` has now.
   void Update(const BlockRows& fine, BlockRows* coarse);
@@ -39,21 +39,22 @@ class Prolongation {
 
  private:
   void FindEntries(const BlockRows& fine, const Aggregates& aggregates,
-                   const std::vector<bool>& strong);
+                   const std::vector<char>& strong);
   void FindProducts(const BlockRows& fine);
+  void FindCoarse(BlockRows* coarse);
   void UpdateWeights(const BlockRows& fine);
 
   int num_coarse_ = 0;
-  // P by rows; weight_of_block_[k] is where block k of the fine matrix contributes, -1
+  // P by rows, in no order; weight_of_block_[k] is where block k of the fine matrix contributes, -1
   // if it does not.
   std::vector<int> starts_, columns_, weight_of_block_;
   std::vector<float> weights_;
-  // A P by rows. product_slots_ lists, for every block of A and every entry of P that
+  // A P by rows, in no order. product_slots_ lists, for every block of A and every entry of P that
   // it meets, the place in that row of A P; coarse_slots_, for every entry of P^T and
-  // every block of A P that it meets, the block of the coarse matrix.
+  // every block of A P that it meets, the block's place in the coarse matrix.
   std::vector<int> product_starts_, product_columns_;
   std::vector<std::uint16_t> product_slots_;
-  std::vector<int> coarse_starts_, coarse_columns_, coarse_slots_;
+  std::vector<int> coarse_slots_;
   std::vector<float> product_row_;
 };
 

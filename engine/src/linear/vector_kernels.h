@@ -8,13 +8,16 @@ namespace dpe {
 
 // x^T y.
 double Dot(size_t n, const double* x, const double* y);
+float Dot(size_t n, const float* x, const float* y);
 // y += a x.
-void AddScaled(size_t n, double a, const double* x, double* y);
+void AddScaled(size_t n, float a, const float* x, float* y);
 void AddScaled(size_t n, double a, const float* x, double* y);
-// x *= a.
-void Scale(size_t n, double a, double* x);
-// y := b - y.
-void SubtractFrom(size_t n, const double* b, double* y);
+// y := a x.
+void Scale(size_t n, double a, const double* x, double* y);
+void Scale(size_t n, float a, const float* x, float* y);
+void Scale(size_t n, double a, const double* x, float* y);
+// y := b - a y.
+void SubtractScaled(size_t n, const double* b, double a, double* y);
 
 }  // namespace dpe
 
