@@ -11,6 +11,7 @@
 #include "linear/block_pattern.h"
 #include "linear/block_solver.h"
 #include "linear/iterative_solver.h"
+#include "linear/multiply_many.h"
 #include "linear/step_solver.h"
 #include "support/derivative_checker.h"
 
@@ -129,40 +130,6 @@ TEST(StepSolverTest, AFactorPutAsideServesItsMatrixAndNearbyOnes) {
     }
   }
 }
-
-class IterativeSolverTest : public testing::TestWithParam<double> {};
-
-TEST_P(IterativeSolverTest, ReachesTheToleranceThatIsAskedFor) {
-  const BlockPattern pattern = RingPattern(kNodes);
-  std::vector<double> values(pattern.num_nonzeros());
-  IterativeWorkspace work;
-  for (const double skew : {0.0, 0.3}) {
-    Fill(pattern, skew, 20.0, &values);
-    const Eigen::MatrixXd a = Dense(pattern, values);
-    BlockJacobi jacobi;
-    ASSERT_TRUE(jacobi.Compute(pattern, values));
-    const Eigen::VectorXd b = RandomVector(pattern.num_rows(), 1);
-    for (const bool transposed : {false, true}) {
-      const auto solve = [&](Eigen::VectorXd* z) {
-        return SolveIteratively(pattern, values, jacobi, skew == 0.0, transposed,
-                                GetParam(), b.data(), z->data(), &work);
-      };
-      Eigen::VectorXd z = Eigen::VectorXd::Zero(b.size());
-      const IterativeResult result = solve(&z);
-      EXPECT_TRUE(result.converged);
-      EXPECT_GT(result.iterations, 0);
-      const Eigen::MatrixXd op = transposed ? Eigen::MatrixXd(a.transpose()) : a;
-      const Eigen::VectorXd residual = b - op * z;
-      EXPECT_LT(residual.norm(), 2.0 * GetParam() * b.norm());
-      // From the solution there is nothing left to do.
-      Eigen::VectorXd again = z;
-      EXPECT_LE(solve(&again).iterations, 1);
-    }
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Tolerances, IterativeSolverTest,
-                         testing::Values(1e-3, 1e-6, 1e-12));
 
 TEST(IterativeSolverTest, WhereItFailsTheFactorizationTakesOver) {
   const BlockPattern pattern = RingPattern(kNodes);

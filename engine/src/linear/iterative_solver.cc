@@ -1,174 +1,139 @@
 #include "linear/iterative_solver.h"
 
-#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "linear/block_product.h"
+#include "linear/vector_kernels.h"
 
 namespace dpe {
 namespace {
 
-using ConstVector = Eigen::Map<const Eigen::VectorXd>;
-using Vector = Eigen::Map<Eigen::VectorXd>;
+// The residual that counts as reached while its recursion has yet to be verified, and
+// the reduction at which it is verified in any case: single precision carries no
+// further.
+constexpr double kMargin = 0.8;
+constexpr double kReduction = 1e-5;
+// Where verification finds that rounding has kept the residual this many times above
+// the recursion, the next time it comes that much earlier.
+constexpr double kLeastReduction = 1e-2;
+// Where a restart's directions do not reduce the residual by this factor a
+// factorisation is the better way.
+constexpr double kProgress = 0.1;
 
-// A cloth's step needs a few dozen; beyond this a factorisation is the better way.
-constexpr int kMaxIterations = 1000;
-
-class Krylov {
- public:
-  Krylov(const BlockPattern& pattern, const std::vector<double>& values,
-         const BlockJacobi& preconditioner, bool transposed, IterativeWorkspace* work)
-      : n_(pattern.num_rows()),
-        pattern_(pattern),
-        values_(values),
-        preconditioner_(preconditioner),
-        transposed_(transposed),
-        work_(*work) {
-    for (auto* v : {&work_.r, &work_.p, &work_.q, &work_.s, &work_.t, &work_.shadow,
-                    &work_.preconditioned}) {
-      v->resize(n_);
-    }
-  }
-
-  IterativeResult ConjugateGradients(const double* b, double tolerance, double* z) {
-    Vector r = In(&work_.r), p = In(&work_.p), q = In(&work_.q), m = In(&work_.s);
-    const double target = tolerance * ConstVector(b, n_).norm();
-    IterativeResult result;
-    StartResidual(b, z);
-    double rho = 0.0;
-    for (; result.iterations < kMaxIterations; ++result.iterations) {
-      const double norm = r.norm();
-      result.converged = norm <= target;
-      if (result.converged || !std::isfinite(norm)) return result;
-      Precondition(r, &m);
-      const double rho_before = rho;
-      rho = r.dot(m);
-      if (result.iterations == 0) {
-        p = m;
-      } else {
-        p = m + (rho / rho_before) * p;
-      }
-      Multiply(p, &q);
-      const double curvature = p.dot(q);
-      if (!(curvature > 0.0) || !(rho > 0.0)) return result;  // not positive definite
-      Vector(z, n_) += (rho / curvature) * p;
-      r -= (rho / curvature) * q;
-    }
-    return result;
-  }
-
-  IterativeResult BiCgStab(const double* b, double tolerance, double* z) {
-    Vector r = In(&work_.r), p = In(&work_.p), v = In(&work_.q), s = In(&work_.s);
-    Vector t = In(&work_.t), shadow = In(&work_.shadow), m = In(&work_.preconditioned);
-    const double target = tolerance * ConstVector(b, n_).norm();
-    IterativeResult result;
-    StartResidual(b, z);
-    shadow = r;
-    double rho = 1.0, alpha = 1.0, omega = 1.0;
-    p.setZero();
-    v.setZero();
-    for (; result.iterations < kMaxIterations; ++result.iterations) {
-      const double norm = r.norm();
-      result.converged = norm <= target;
-      if (result.converged || !std::isfinite(norm)) return result;
-      const double rho_before = rho;
-      rho = shadow.dot(r);
-      if (rho == 0.0 || omega == 0.0) return result;  // breakdown
-      p = r + (rho / rho_before) * (alpha / omega) * (p - omega * v);
-      Precondition(p, &m);
-      Multiply(m, &v);
-      alpha = rho / shadow.dot(v);
-      Vector(z, n_) += alpha * m;
-      s = r - alpha * v;
-      Precondition(s, &m);
-      Multiply(m, &t);
-      const double tt = t.squaredNorm();
-      omega = tt > 0.0 ? t.dot(s) / tt : 0.0;
-      Vector(z, n_) += omega * m;
-      r = s - omega * t;
-    }
-    return result;
-  }
-
- private:
-  Vector In(std::vector<double>* v) const { return Vector(v->data(), n_); }
-
-  void Multiply(const Vector& x, Vector* y) const {
-    if (transposed_) {
-      pattern_.MultiplyTransposed(values_.data(), x.data(), y->data());
-    } else {
-      pattern_.Multiply(values_.data(), x.data(), y->data());
-    }
-  }
-
-  void Precondition(const Vector& x, Vector* y) const {
-    preconditioner_.Apply(x.data(), y->data(), transposed_);
-  }
-
-  // r := b - A z.
-  void StartResidual(const double* b, const double* z) {
-    Vector r = In(&work_.r), q = In(&work_.q);
-    if (ConstVector(z, n_).isZero(0.0)) {
-      r = ConstVector(b, n_);
-      return;
-    }
-    if (transposed_) {
-      pattern_.MultiplyTransposed(values_.data(), z, q.data());
-    } else {
-      pattern_.Multiply(values_.data(), z, q.data());
-    }
-    r = ConstVector(b, n_) - q;
-  }
-
-  int n_;
-  const BlockPattern& pattern_;
-  const std::vector<double>& values_;
-  const BlockJacobi& preconditioner_;
-  bool transposed_;
-  IterativeWorkspace& work_;
-};
+double Norm(const std::vector<double>& x) {
+  return std::sqrt(Dot(x.size(), x.data(), x.data()));
+}
 
 }  // namespace
 
-bool BlockJacobi::Compute(const BlockPattern& pattern,
-                          const std::vector<double>& values) {
-  inverses_.resize(9 * static_cast<size_t>(pattern.num_nodes()));
-  for (int i = 0; i < pattern.num_nodes(); ++i) {
-    const BlockSlot slot = pattern.Find(i, i);
-    Eigen::Matrix3d block;
-    for (int c = 0; c < 3; ++c) {
-      for (int r = 0; r < 3; ++r)
-        block(r, c) = values[slot.offset + c * slot.stride + r];
-    }
-    const Eigen::Matrix3d inverse = block.inverse();
-    if (!inverse.allFinite()) return false;
-    Eigen::Map<Eigen::Matrix3d>(inverses_.data() + 9 * static_cast<size_t>(i)) =
-        inverse;
+bool IterativeSolver::Prepare(const std::vector<double>& values, bool transposed) {
+  values_ = values.data();
+  transposed_ = transposed;
+  return multigrid_.Compute(pattern_, values_, transposed);
+}
+
+void IterativeSolver::Multiply(const double* x, double* y) const {
+  if (transposed_) {
+    BlockProductTransposed(pattern_, values_, x, y);
+  } else {
+    BlockProduct(pattern_, values_, x, y);
+  }
+}
+
+double IterativeSolver::TrueResidual(const double* b, const double* z) {
+  Multiply(z, residual_.data());
+  SubtractScaled(residual_.size(), b, 1.0, residual_.data());
+  return Norm(residual_);
+}
+
+double IterativeSolver::Start(const double* b, double* z) {
+  const size_t n = residual_.size();
+  double c = 0.0;
+  if (Dot(n, z, z) > 0.0) {
+    // A guess of the right shape and the wrong size is a good guess.
+    Multiply(z, residual_.data());
+    c = Dot(n, residual_.data(), b) / Dot(n, residual_.data(), residual_.data());
+  }
+  if (c == 0.0 || !std::isfinite(c)) {
+    std::fill(z, z + n, 0.0);
+    std::copy(b, b + n, residual_.begin());
+  } else {
+    Scale(n, c, z, z);
+    SubtractScaled(n, b, c, residual_.data());
+  }
+  return Norm(residual_);
+}
+
+bool IterativeSolver::AddDirection() {
+  const size_t n = r_.size();
+  if (static_cast<int>(directions_.size()) == num_directions_) {
+    directions_.emplace_back();
+    directions_.back().u.resize(n);
+    directions_.back().q.resize(n);
+  }
+  Direction& d = directions_[num_directions_];
+  float* q = d.q.data();
+  multigrid_.Apply(r_.data(), d.u.data());
+  multigrid_.matrix().Multiply(d.u.data(), q);
+  for (int i = 0; i < num_directions_; ++i) {
+    const float* other = directions_[i].q.data();
+    d.h[i] = Dot(n, other, q);
+    AddScaled(n, -d.h[i], other, q);
+  }
+  const float length = std::sqrt(Dot(n, q, q));
+  if (!(length > 0.0f) || !std::isfinite(length)) return false;
+  d.h[num_directions_++] = length;
+  Scale(n, 1.0f / length, q, q);
+  const float a = Dot(n, q, r_.data());
+  AddScaled(n, -a, q, r_.data());
+  d.a = a;
+  return true;
+}
+
+bool IterativeSolver::Reduce(double reduction, double norm, double* z) {
+  const size_t n = r_.size();
+  num_directions_ = 0;
+  Scale(n, 1.0 / norm, residual_.data(), r_.data());
+  double reached = 1.0;
+  while (reached > reduction && num_directions_ < kDirections) {
+    if (!AddDirection()) return false;
+    reached = std::sqrt(Dot(n, r_.data(), r_.data()));
+    if (!std::isfinite(reached)) return false;
+  }
+  // z += sum_j y_j u_j with H y = a, in the scale of the preconditioner's matrix.
+  const double scale = norm * multigrid_.scale();
+  for (int j = num_directions_ - 1; j >= 0; --j) {
+    const double y = directions_[j].a / directions_[j].h[j];
+    for (int i = 0; i < j; ++i) directions_[i].a -= directions_[j].h[i] * y;
+    AddScaled(n, scale * y, directions_[j].u.data(), z);
   }
   return true;
 }
 
-void BlockJacobi::Apply(const double* r, double* z, bool transposed) const {
-  const int num_nodes = static_cast<int>(inverses_.size() / 9);
-  for (int i = 0; i < num_nodes; ++i) {
-    const Eigen::Map<const Eigen::Matrix3d> inverse(inverses_.data() +
-                                                    9 * static_cast<size_t>(i));
-    const Eigen::Map<const Eigen::Vector3d> in(r + 3 * i);
-    Eigen::Map<Eigen::Vector3d> out(z + 3 * i);
-    if (transposed) {
-      out.noalias() = inverse.transpose() * in;
-    } else {
-      out.noalias() = inverse * in;
-    }
+IterativeResult IterativeSolver::Solve(double tolerance, const double* b, double* z) {
+  const size_t n = static_cast<size_t>(pattern_.num_rows());
+  residual_.resize(n);
+  r_.resize(n);
+  const double target = tolerance * std::sqrt(Dot(n, b, b));
+  IterativeResult result;
+  double norm = Start(b, z);
+  double least_reduction = kReduction;
+  while (std::isfinite(norm)) {
+    result.converged = norm <= target;
+    if (result.converged) break;
+    const double reduction = std::max(kMargin * target / norm, least_reduction);
+    const double norm_before = norm;
+    const bool ok = Reduce(reduction, norm, z);
+    result.iterations += num_directions_;
+    if (!ok) break;
+    norm = TrueResidual(b, z);
+    if (!(norm <= target) && !(norm <= kProgress * norm_before)) break;
+    least_reduction =
+        std::min(std::max(norm / norm_before, kReduction), kLeastReduction);
   }
-}
-
-IterativeResult SolveIteratively(const BlockPattern& pattern,
-                                 const std::vector<double>& values,
-                                 const BlockJacobi& preconditioner, bool symmetric,
-                                 bool transposed, double tolerance, const double* b,
-                                 double* z, IterativeWorkspace* work) {
-  Krylov krylov(pattern, values, preconditioner, transposed, work);
-  return symmetric ? krylov.ConjugateGradients(b, tolerance, z)
-                   : krylov.BiCgStab(b, tolerance, z);
+  return result;
 }
 
 }  // namespace dpe

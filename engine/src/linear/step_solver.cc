@@ -29,7 +29,8 @@ StepSolver::StepSolver(std::shared_ptr<StepSolverContext> context)
 bool StepSolver::Factorize(bool symmetric) {
   const ScopedTimer timer(context_->timings, TimedPart::kFactorization);
   symmetric_ = symmetric;
-  iterative_ = context_->iterative && jacobi_.Compute(pattern_, values_);
+  iterative_ = context_->iterative;
+  matrix_ = context_->num_matrices++;
   factorized_ = iterative_ || direct_.Factorize(values_, symmetric_);
   return factorized_;
 }
@@ -44,8 +45,8 @@ bool StepSolver::FactorizeDirectly(bool symmetric) {
 
 bool StepSolver::KeepFactorization() {
   if (iterative_) {
-    iterative_ = jacobi_.Compute(pattern_, values_);
-    return iterative_ || direct_.Factorize(values_, symmetric_);
+    matrix_ = context_->num_matrices++;
+    return true;
   }
   return direct_.KeepFactorization(values_);
 }
@@ -68,26 +69,38 @@ void StepSolver::UseFactor(const KeptFactor* kept, bool symmetric) {
 
 bool StepSolver::Solve(const double* b, double* z, bool transposed, const double* guess,
                        double accuracy) {
+  const bool prepared = iterative_ && PrepareKrylov(transposed);
   const ScopedTimer timer(context_->timings, TimedPart::kSolve);
   if (!iterative_) return direct_.Solve(values_, b, z, transposed, accuracy);
-  if (SolveByKrylov(b, z, transposed, guess)) return true;
+  const int n = pattern_.num_rows();
+  context_->right.assign(b, b + n);  // b and z may be the same array
+  if (prepared && SolveByKrylov(z, guess)) return true;
   iterative_ = false;
   return direct_.Factorize(values_, symmetric_) &&
          direct_.Solve(values_, context_->right.data(), z, transposed);
 }
 
-bool StepSolver::SolveByKrylov(const double* b, double* z, bool transposed,
-                               const double* guess) {
+bool StepSolver::PrepareKrylov(bool transposed) {
+  StepSolverContext& context = *context_;
+  if (context.prepared_matrix == matrix_ && context.prepared_transposed == transposed) {
+    return true;
+  }
+  const ScopedTimer timer(context.timings, TimedPart::kFactorization);
+  context.prepared_matrix = -1;
+  if (!context.krylov.Prepare(values_, transposed)) return false;
+  context.prepared_matrix = matrix_;
+  context.prepared_transposed = transposed;
+  return true;
+}
+
+bool StepSolver::SolveByKrylov(double* z, const double* guess) {
   const int n = pattern_.num_rows();
-  context_->right.assign(b, b + n);  // b and z may be the same array
   if (guess != nullptr) {
     std::copy_n(guess, n, z);
   } else {
     std::fill_n(z, n, 0.0);
   }
-  return SolveIteratively(pattern_, values_, jacobi_, symmetric_, transposed,
-                          context_->tolerance, context_->right.data(), z,
-                          &context_->iterative_work)
+  return context_->krylov.Solve(context_->tolerance, context_->right.data(), z)
       .converged;
 }
 

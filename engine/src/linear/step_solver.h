@@ -22,7 +22,9 @@ namespace dpe {
 struct StepSolverContext {
   // The pattern must outlive the context.
   explicit StepSolverContext(const BlockPattern& pattern)
-      : pattern(pattern), direct(std::make_shared<DirectSolverContext>(pattern)) {}
+      : pattern(pattern),
+        direct(std::make_shared<DirectSolverContext>(pattern)),
+        krylov(pattern) {}
 
   // Bytes of a KeptFactor.
   size_t kept_bytes(bool symmetric);
@@ -32,7 +34,12 @@ struct StepSolverContext {
   bool iterative = false;
   double tolerance = 1e-12;    // of the Krylov method
   Timings* timings = nullptr;  // if set, receives the time of factorising and solving
-  IterativeWorkspace iterative_work;
+  IterativeSolver krylov;
+  // Matrices are numbered as they are factorised; the one that `krylov` is prepared
+  // for, or -1.
+  long num_matrices = 0;
+  long prepared_matrix = -1;
+  bool prepared_transposed = false;
   std::vector<double> right;
 };
 
@@ -87,14 +94,16 @@ class StepSolver {
   SupernodalFactor ExactFactor();
 
  private:
-  bool SolveByKrylov(const double* b, double* z, bool transposed, const double* guess);
+  bool PrepareKrylov(bool transposed);
+  // Solves for context_->right.
+  bool SolveByKrylov(double* z, const double* guess);
 
   std::shared_ptr<StepSolverContext> context_;
   const BlockPattern& pattern_;
   std::vector<double> values_;
-  BlockJacobi jacobi_;
   DirectSolver direct_;
   bool iterative_ = false;  // the matrix at hand is solved by the Krylov method
+  long matrix_ = -1;        // its number
   bool factorized_ = false;
   bool symmetric_ = true;
 };
