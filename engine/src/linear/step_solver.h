@@ -25,7 +25,7 @@ struct StepSolverContext {
       : pattern(pattern), direct(std::make_shared<DirectSolverContext>(pattern)) {}
 
   // Bytes of a KeptFactor.
-  size_t kept_bytes(bool symmetric);
+  size_t kept_bytes();
 
   const BlockPattern& pattern;
   std::shared_ptr<DirectSolverContext> direct;
