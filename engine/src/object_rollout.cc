@@ -24,7 +24,7 @@ MemoryDemand DemandOf(const Scene& scene, const SimulatorOptions& options,
   MemoryDemand demand;
   demand.bytes_per_frame = InnerStates::BytesPerFrame(
       system.num_coordinates(), scene.steps_per_frame, integrator->num_stages());
-  if (integrator->UsesSolver() && system.KeepingFactorsPays()) {
+  if (integrator->LeavesAdjointFactor() && system.KeepingFactorsPays()) {
     demand.bytes_per_factor = system.factor_bytes();
   }
   return demand;

@@ -39,7 +39,7 @@ class ObjectSystem {
   const std::vector<BlockSlot>& diagonal() const { return diagonal_; }
   StepSolver* solver() { return solver_.get(); }
   // Bytes of a factorisation that a rollout keeps.
-  size_t factor_bytes() const { return solver_context_->kept_bytes(IsSymmetric()); }
+  size_t factor_bytes() const { return solver_context_->kept_bytes(); }
   // Whether keeping factorisations saves more than the assembly of their matrices.
   bool KeepingFactorsPays() const { return !solver_context_->iterative; }
   // Numbers in the panels of one triangular factor.

@@ -7,8 +7,7 @@
 #include "resource_usage.h"
 
 // CHOLMOD's OpenMP runtime, if it has one: its parallel regions, one per supernode,
-// cost more than they bring (engine/src/linear/serial_openmp.h does the same in the
-// engine).
+// cost more than they bring.
 extern "C" __attribute__((weak)) void omp_set_max_active_levels(int levels);
 
 namespace dpe::bench {

@@ -8,9 +8,9 @@
 
 #include "dpe/engine/sensitivity.h"
 #include "engine/matrix_support.h"
-#include "linear/cholesky.h"
 #include "linear/dense_kernels.h"
 #include "linear/direct_solver.h"
+#include "linear/symbolic_analysis.h"
 #include "support/derivative_checker.h"
 
 namespace dpe::test {
@@ -35,12 +35,12 @@ class SupernodalLuTest : public testing::TestWithParam<LuCase> {};
 // With a small shift the symmetric part is indefinite, and not so with a large one.
 TEST_P(SupernodalLuTest, SolvesBothWaysForOneAndForManyRightHandSides) {
   const BlockPattern& pattern = GetParam().pattern;
-  const auto analysis = std::make_shared<CholeskyAnalysis>(pattern);
+  const auto analysis = std::make_shared<SymbolicAnalysis>(pattern);
   SupernodalLu lu(analysis->structure());
   std::vector<double> values(pattern.num_nonzeros()), work;
-  for (const double shift : {30.0, 40.0}) {  // the second time in used panels
-    Fill(pattern, 0.5, shift, &values);
-    ASSERT_TRUE(lu.Factorize(values.data(), &work));
+  for (const double skew : {0.5, 0.0, 0.3}) {  // after the first in used panels
+    Fill(pattern, skew, 40.0, &values);
+    ASSERT_TRUE(lu.Factorize(values.data(), /*symmetric=*/skew == 0.0, &work));
     const Eigen::MatrixXd a = Dense(pattern, values);
     for (const bool transposed : {false, true}) {
       const Eigen::MatrixXd op = transposed ? Eigen::MatrixXd(a.transpose()) : a;
@@ -66,15 +66,15 @@ INSTANTIATE_TEST_SUITE_P(Patterns, SupernodalLuTest, testing::ValuesIn(LuCases()
 
 TEST(SupernodalLuTest, ReportsPivotsThatAreNotThere) {
   const BlockPattern pattern = GridPattern(6, 6);
-  const CholeskyAnalysis analysis(pattern);
+  const SymbolicAnalysis analysis(pattern);
   SupernodalLu lu(analysis.structure());
   std::vector<double> values(pattern.num_nonzeros()), work;
-  EXPECT_FALSE(lu.Factorize(values.data(), &work));  // all zeros
+  EXPECT_FALSE(lu.Factorize(values.data(), /*symmetric=*/false, &work));  // all zeros
   Fill(pattern, 0.5, 30.0, &values);
   values[pattern.Find(20, 20).offset] = std::nan("");
-  EXPECT_FALSE(lu.Factorize(values.data(), &work));
+  EXPECT_FALSE(lu.Factorize(values.data(), /*symmetric=*/false, &work));
   Fill(pattern, 0.5, 30.0, &values);
-  EXPECT_TRUE(lu.Factorize(values.data(), &work));
+  EXPECT_TRUE(lu.Factorize(values.data(), /*symmetric=*/false, &work));
 }
 
 // [0 1; 1 0] in every block row: well-conditioned, but elimination in order fails.

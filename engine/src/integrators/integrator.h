@@ -78,6 +78,10 @@ class Integrator {
   virtual int num_stages() const { return 1; }
   // True if the method solves linear systems.
   virtual bool UsesSolver() const { return true; }
+  // True if a step leaves the factorisation of the very matrix that its adjoint solves
+  // with. Newton's method leaves that of its first iterate, with which the adjoint
+  // would have to iterate: a new one is as cheap, and exact.
+  virtual bool LeavesAdjointFactor() const { return false; }
 
   // Computes the free entries of the result from states.x0 and v0 (states.x1 ... point
   // to the result as well).

@@ -21,6 +21,8 @@ class LinearlyImplicitEuler final : public Integrator {
  public:
   using Integrator::Integrator;
 
+  bool LeavesAdjointFactor() const override { return true; }
+
   StepOutcome Step(ObjectSystem* system, StepSolver* solver, const StepStates& states,
                    const StepResult& result) override;
   void ForgetSteps() override { last_change_.clear(); }

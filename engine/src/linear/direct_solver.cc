@@ -24,8 +24,8 @@ using Vector = Eigen::Map<Eigen::VectorXd>;
 
 }  // namespace
 
-const std::shared_ptr<CholeskyAnalysis>& DirectSolverContext::analysis() {
-  if (!analysis_) analysis_ = std::make_shared<CholeskyAnalysis>(pattern);
+const std::shared_ptr<SymbolicAnalysis>& DirectSolverContext::analysis() {
+  if (!analysis_) analysis_ = std::make_shared<SymbolicAnalysis>(pattern);
   return analysis_;
 }
 
@@ -39,13 +39,9 @@ bool DirectSolver::Factorize(const std::vector<double>& values, bool symmetric) 
   is_exact_ = true;
   symmetric_ = symmetric;
   kind_ = Kind::kNone;
-  if (symmetric) {
-    if (!cholesky_) cholesky_ = std::make_unique<Cholesky>(context_->analysis());
-    if (cholesky_->Factorize(values.data())) kind_ = Kind::kCholesky;
-  }
-  if (kind_ == Kind::kNone) {
-    if (!lu_) lu_ = std::make_unique<SupernodalLu>(context_->analysis()->structure());
-    if (lu_->Factorize(values.data(), &context_->factorization_work)) kind_ = Kind::kLu;
+  if (!lu_) lu_ = std::make_unique<SupernodalLu>(context_->analysis()->structure());
+  if (lu_->Factorize(values.data(), symmetric, &context_->factorization_work)) {
+    kind_ = Kind::kLu;
   }
   return kind_ != Kind::kNone || FactorizeWithPivots(values);
 }
@@ -66,18 +62,14 @@ void DirectSolver::Multiply(const std::vector<double>& values, const double* x,
 }
 
 SupernodalFactor DirectSolver::factor() const {
-  if (kind_ == Kind::kKept) return kept_->factor();
-  return kind_ == Kind::kCholesky ? cholesky_->factor() : lu_->factor();
+  return kind_ == Kind::kKept ? kept_->lu->factor() : lu_->factor();
 }
 
 void DirectSolver::StoreFactor(KeptFactor* kept) {
   kept->Clear();
-  if (kind_ == Kind::kCholesky) {
-    std::swap(kept->cholesky, cholesky_);
-    kept->kind = KeptFactor::Kind::kCholesky;
-  } else if (kind_ == Kind::kLu) {
+  if (kind_ == Kind::kLu) {
     std::swap(kept->lu, lu_);
-    kept->kind = KeptFactor::Kind::kLu;
+    kept->has_factor = true;
   }
   kind_ = Kind::kNone;
 }
@@ -95,11 +87,6 @@ bool DirectSolver::Solve(const std::vector<double>& values, const double* b, dou
   if (kind_ == Kind::kPivotedLu) return SolveWithPivots(values, b, z, transposed);
   if (b != context_->right.data()) {  // b and z may be the same array
     std::copy_n(b, n, context_->right.data());
-  }
-  if (kind_ == Kind::kCholesky && is_exact_) {
-    if (b != z) std::copy_n(b, n, z);
-    SolveSupernodal(factor(), &context_->solve_work, z);
-    return ConstVector(z, n).allFinite();
   }
   if (SolveByFactor(values, z, transposed, accuracy)) return true;
   if (!is_exact_ && Factorize(values, symmetric_)) {

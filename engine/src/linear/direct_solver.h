@@ -2,14 +2,14 @@
 //
 // A is nearly symmetric: only spring damping and drag make it non-symmetric, and it is
 // positive definite unless springs are strongly compressed. The strategy:
-//   1. a symmetric A is factorised by sparse Cholesky (CHOLMOD);
-//   2. if it is not symmetric, or not positive definite, by sparse LU without pivoting
-//      (supernodal_lu.h), which costs twice as much and is exact for A and A^T alike;
-//   3. every solve checks its residual. Where pivoting would have been needed, or where
+//   1. it is factorised by sparse LU without pivoting (supernodal_lu.h), which is exact
+//      for A and A^T alike; if A is symmetric, by its symmetric form with half the
+//      work;
+//   2. every solve checks its residual. Where pivoting would have been needed, or where
 //      the factorisation is that of a nearby matrix (KeepFactorization), GMRES with the
 //      factorisation as preconditioner brings it down to rounding level; where the
 //      nearby matrix turns out not to be near, A is factorised anew;
-//   4. if that fails, A is factorised by sparse LU with partial pivoting
+//   3. if that fails, A is factorised by sparse LU with partial pivoting
 //      (Eigen::SparseLU), many times slower.
 // Each way gives the solution of the same exact system, so derivative passes are exact.
 #ifndef DPE_ENGINE_LINEAR_DIRECT_SOLVER_H_
@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "linear/block_pattern.h"
-#include "linear/cholesky.h"
 #include "linear/kept_factor.h"
 #include "linear/supernodal_lu.h"
+#include "linear/symbolic_analysis.h"
 
 namespace dpe {
 
@@ -33,14 +33,14 @@ struct DirectSolverContext {
   explicit DirectSolverContext(const BlockPattern& pattern) : pattern(pattern) {}
 
   // Made at the first use: large systems may never need it.
-  const std::shared_ptr<CholeskyAnalysis>& analysis();
+  const std::shared_ptr<SymbolicAnalysis>& analysis();
 
   const BlockPattern& pattern;
   std::vector<double> factorization_work, solve_work;
   std::vector<double> residual, right, basis;
 
  private:
-  std::shared_ptr<CholeskyAnalysis> analysis_;
+  std::shared_ptr<SymbolicAnalysis> analysis_;
 };
 
 class DirectSolver {
@@ -77,7 +77,7 @@ class DirectSolver {
 
  private:
   using PivotedLu = Eigen::SparseLU<Eigen::SparseMatrix<double>>;
-  enum class Kind { kNone, kCholesky, kLu, kKept, kPivotedLu };
+  enum class Kind { kNone, kLu, kKept, kPivotedLu };
 
   void Multiply(const std::vector<double>& values, const double* x, double* y,
                 bool transposed) const;
@@ -94,7 +94,6 @@ class DirectSolver {
   Kind kind_ = Kind::kNone;
   bool is_exact_ = true;  // the factorisation is that of the current matrix
   bool symmetric_ = true;
-  std::unique_ptr<Cholesky> cholesky_;
   std::unique_ptr<SupernodalLu> lu_;
   const KeptFactor* kept_ = nullptr;
   std::unique_ptr<PivotedLu> pivoted_lu_;

@@ -8,22 +8,15 @@
 
 #include <memory>
 
-#include "linear/cholesky.h"
 #include "linear/supernodal_lu.h"
 
 namespace dpe {
 
 struct KeptFactor {
-  enum class Kind { kNone, kCholesky, kLu };
+  bool empty() const { return !has_factor; }
+  void Clear() { has_factor = false; }
 
-  bool empty() const { return kind == Kind::kNone; }
-  void Clear() { kind = Kind::kNone; }
-  SupernodalFactor factor() const {
-    return kind == Kind::kCholesky ? cholesky->factor() : lu->factor();
-  }
-
-  Kind kind = Kind::kNone;
-  std::unique_ptr<Cholesky> cholesky;
+  bool has_factor = false;
   std::unique_ptr<SupernodalLu> lu;
 };
 

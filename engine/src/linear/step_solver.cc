@@ -15,9 +15,8 @@ constexpr int kDirectRows = 10000;
 
 bool PrefersIterativeSolver(int num_rows) { return num_rows > kDirectRows; }
 
-size_t StepSolverContext::kept_bytes(bool symmetric) {
-  const size_t num_values = direct->analysis()->structure()->num_values();
-  return (symmetric ? 1 : 2) * num_values * sizeof(double);
+size_t StepSolverContext::kept_bytes() {
+  return 2 * direct->analysis()->structure()->num_values() * sizeof(double);
 }
 
 StepSolver::StepSolver(std::shared_ptr<StepSolverContext> context)

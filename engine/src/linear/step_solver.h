@@ -27,7 +27,7 @@ struct StepSolverContext {
         krylov(pattern) {}
 
   // Bytes of a KeptFactor.
-  size_t kept_bytes(bool symmetric);
+  size_t kept_bytes();
 
   const BlockPattern& pattern;
   std::shared_ptr<DirectSolverContext> direct;

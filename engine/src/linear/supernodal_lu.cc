@@ -13,6 +13,9 @@ namespace {
 // but rounding.
 constexpr double kMinPivot = 1e-15;
 
+// Remainders of symmetric matrices are made so many columns at a time.
+constexpr int kTriangleColumns = 24;
+
 // The factors of a diagonal block of up to kPanelWidth columns, laid out for
 // DenseKernels::solve_right: L21 := A21 U11^{-1} and U12^T := A12^T L11^{-T}.
 struct DiagonalBlock {
@@ -21,12 +24,12 @@ struct DiagonalBlock {
   double inverse_pivots[kPanelWidth];
 
   // @param l, u  the block's first entry in the panels of L and U^T
-  bool Factorize(double* l, double* u, long ld, int width) {
+  bool Factorize(double* l, double* u, long ld, int width, bool symmetric) {
     double a[kPanelWidth][kPanelWidth];
     double largest = 0.0;
     for (int j = 0; j < width; ++j) {
       for (int i = 0; i < width; ++i) {
-        a[i][j] = i >= j ? l[i + j * ld] : u[j + i * ld];
+        a[i][j] = i >= j ? l[i + j * ld] : symmetric ? l[j + i * ld] : u[j + i * ld];
         largest = std::max(largest, std::abs(a[i][j]));
       }
     }
@@ -61,7 +64,9 @@ SupernodalLu::SupernodalLu(std::shared_ptr<const SupernodalStructure> structure)
       lower_(structure_->num_values()),
       upper_(structure_->num_values()) {}
 
-bool SupernodalLu::Factorize(const double* values, std::vector<double>* work) {
+bool SupernodalLu::Factorize(const double* values, bool symmetric,
+                             std::vector<double>* work) {
+  symmetric_ = symmetric;
   work->resize(structure_->workspace_size);
   for (int s = 0; s < structure_->num_supernodes; ++s) {
     Assemble(s, values);
@@ -82,7 +87,7 @@ void SupernodalLu::Assemble(int s, const double* values) {
   double* upper = upper_.data() + start;
   const size_t size = structure_->value_start[s + 1] - start;
   std::fill_n(lower, size, 0.0);
-  std::fill_n(upper, size, 0.0);
+  if (!symmetric_) std::fill_n(upper, size, 0.0);
   for (int k = structure_->pair_start[s]; k < structure_->pair_start[s + 1]; ++k) {
     const SupernodalStructure::BlockPair& pair = structure_->pairs[k];
     const double* l = values + pair.lower.offset;
@@ -90,10 +95,9 @@ void SupernodalLu::Assemble(int s, const double* values) {
     for (int c = 0; c < 3; ++c) {
       double* l_column = lower + pair.target + c * rows;
       double* u_column = upper + pair.target + c * rows;
-      for (int r = 0; r < 3; ++r) {
-        l_column[r] = l[r + c * pair.lower.stride];
-        u_column[r] = u[c + r * pair.upper.stride];
-      }
+      for (int r = 0; r < 3; ++r) l_column[r] = l[r + c * pair.lower.stride];
+      if (symmetric_) continue;
+      for (int r = 0; r < 3; ++r) u_column[r] = u[c + r * pair.upper.stride];
     }
   }
 }
@@ -121,6 +125,8 @@ void SupernodalLu::AddToPanels(int child, int s, const double* remainder) {
         const long first = other->first;
         for (int i = 0; i < other->length; ++i) {
           l[other->place + i] += column[first + i];
+        }
+        for (int i = 0; i < other->length && !symmetric_; ++i) {
           u[other->place + i] += row[(first + i) * size];
         }
       }
@@ -136,9 +142,15 @@ void SupernodalLu::MakeRemainder(int s, double* work) {
   if (below == 0) return;
   const size_t start = structure_->value_start[s] + columns;
   double* const remainder = work + structure_->remainder_start[s];
-  BestDenseKernels().subtract_product(/*overwrite=*/true, below, below, columns,
-                                      lower_.data() + start, rows,
-                                      upper_.data() + start, 1, rows, remainder, below);
+  // Column by column as much of it as there is below the diagonal, if symmetric.
+  const int width = symmetric_ ? kTriangleColumns : below;
+  for (int j = 0; j < below; j += width) {
+    const int i = symmetric_ ? j : 0;
+    BestDenseKernels().subtract_product(
+        /*overwrite=*/true, below - i, std::min(width, below - j), columns,
+        lower_.data() + start + i, rows, upper_.data() + start + j, 1, rows,
+        remainder + i + static_cast<long>(j) * below, below);
+  }
   for (int child = structure_->first_child[s]; child >= 0;
        child = structure_->next_sibling[child]) {
     const long size = structure_->num_rows(child) - structure_->num_columns(child);
@@ -152,7 +164,8 @@ void SupernodalLu::MakeRemainder(int s, double* work) {
       for (int k = 0; k < run->length; ++k) {
         const double* column = in + (run->first + k) * size;
         double* out = remainder + (run->place + k - columns) * below - columns;
-        for (const SupernodalStructure::Run* other = begin; other != end; ++other) {
+        for (const SupernodalStructure::Run* other = symmetric_ ? run : begin;
+             other != end; ++other) {
           for (int i = 0; i < other->length; ++i) {
             out[other->place + i] += column[other->first + i];
           }
@@ -178,7 +191,7 @@ bool SupernodalLu::FactorizeColumns(int s, int begin, int end) {
         rows, x + middle + middle * rows, rows);
   };
   update(&lower_, upper_);
-  update(&upper_, lower_);
+  if (!symmetric_) update(&upper_, lower_);
   return FactorizeColumns(s, middle, end);
 }
 
@@ -189,12 +202,19 @@ bool SupernodalLu::FactorizePanel(int s, int begin, int end) {
   double* u = upper_.data() + start;
   const int width = end - begin;
   DiagonalBlock diagonal;
-  if (!diagonal.Factorize(l + begin, u + begin, rows, width)) return false;
+  if (!diagonal.Factorize(l + begin, u + begin, rows, width, symmetric_)) return false;
   const DenseKernels& kernels = BestDenseKernels();
   const int below = static_cast<int>(rows) - end;
   kernels.solve_right(below, width, diagonal.upper, diagonal.inverse_pivots, l + end,
                       rows);
-  kernels.solve_right(below, width, diagonal.lower, kOnes, u + end, rows);
+  if (!symmetric_) {
+    kernels.solve_right(below, width, diagonal.lower, kOnes, u + end, rows);
+    return true;
+  }
+  for (int j = 0; j < width; ++j) {
+    const double pivot = diagonal.upper[j + kPanelWidth * j];
+    for (long i = end + j * rows; i < (j + 1) * rows; ++i) u[i] = pivot * l[i];
+  }
   return true;
 }
 

@@ -13,6 +13,9 @@
 //   [A11 A12; A21 A22] = [L11 0; L21 I] [U11 U12; 0 S],   S = A22 - L21 U12,
 // and S is the remainder that goes to the parent. Within a panel columns are split in
 // halves: the left half is factorised, the right one updated, then factorised.
+//
+// Of a symmetric matrix U = D L^T, D the pivots: then the panels of U^T are those of L
+// scaled, and of remainders only the lower triangle is made, which halves the work.
 #ifndef DPE_ENGINE_LINEAR_SUPERNODAL_LU_H_
 #define DPE_ENGINE_LINEAR_SUPERNODAL_LU_H_
 
@@ -31,9 +34,11 @@ class SupernodalLu {
 
   // Factorises the matrix whose values, in pattern order, are given.
   //
-  // @param work  resized as needed; may be shared by factorisations that take turns
-  // @return      false if a pivot is zero or not finite
-  bool Factorize(const double* values, std::vector<double>* work);
+  // @param symmetric  the matrix is symmetric; its upper triangle is then not read
+  // @param work       resized as needed; may be shared by factorisations that take
+  // turns
+  // @return           false if a pivot is zero or not finite
+  bool Factorize(const double* values, bool symmetric, std::vector<double>* work);
 
   // For SolveSupernodal; valid until the next factorisation.
   SupernodalFactor factor() const;
@@ -48,6 +53,7 @@ class SupernodalLu {
   bool FactorizePanel(int s, int begin, int end);
 
   std::shared_ptr<const SupernodalStructure> structure_;
+  bool symmetric_ = false;
   std::vector<double> lower_, upper_;  // panels of L and U^T
 };
 
