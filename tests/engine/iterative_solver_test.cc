@@ -109,7 +109,8 @@ TEST(IterativeSolverTest, IterationsHardlyGrowWithTheCloth) {
   const int coarse = IterationsOnSide(12, false);
   const int fine = IterationsOnSide(64, false);
   EXPECT_LE(fine, 2 * coarse) << coarse;
-  EXPECT_LE(IterationsOnSide(48, true), 4 * coarse);
+  // Stiffnesses that jump by factors of up to 1000 cost more, but bounded many.
+  EXPECT_LE(IterationsOnSide(48, true), 8 * coarse);
 }
 
 }  // namespace
