@@ -33,7 +33,6 @@ class FrameRunner {
               ObjectSystem* system);
 
   int num_stages() const { return integrator_->num_stages(); }
-  bool UsesSolver() const { return integrator_->UsesSolver(); }
   // Whether a frame has states inside.
   bool HasInnerStates() const {
     return scene_.steps_per_frame > 1 || integrator_->num_stages() > 1;

@@ -41,7 +41,7 @@ RolloutStatus RollOutObject(const Scene& scene, const SimulatorOptions& options,
     tape = &nothing;
   } else {
     tape->inner.Resize(n, k, runner.num_stages(), plan.num_inner_frames);
-    if (runner.UsesSolver()) MakeRoomForFactors(plan, *system, tape);
+    MakeRoomForFactors(plan, *system, tape);
   }
   InnerStates passing;  // of a frame whose inner states are not kept
   passing.Resize(n, k, runner.num_stages(), 1);

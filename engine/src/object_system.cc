@@ -139,6 +139,14 @@ void ObjectSystem::AddMass(double* values) const {
   }
 }
 
+void ObjectSystem::AssembleStepMatrix(const double* x, const double* v, double c,
+                                      std::vector<double>* values) const {
+  values->assign(pattern_.num_nonzeros(), 0.0);
+  AddMass(values->data());
+  AddJacobian({x, v, nullptr, nullptr}, -c * c, -c, VelocityPart::kWhole,
+              values->data());
+}
+
 void ObjectSystem::AddAdjoint(const ForceState& state, const double* lambda, double c,
                               VelocityPart part, double* gx, double* gv) const {
   for (const auto& term : terms_) term->AddAdjoint(state, lambda, c, part, gx, gv);

@@ -44,7 +44,7 @@ class ObjectSystem {
   bool KeepingFactorsPays() const { return !solver_context_->iterative; }
   // Numbers in the panels of one triangular factor.
   size_t factor_values() const {
-    return solver_context_->direct->analysis()->structure()->num_values();
+    return solver_context_->direct->structure()->num_values();
   }
 
   const ObjectParameters& parameters() const { return parameters_; }
@@ -70,6 +70,9 @@ class ObjectSystem {
                    double* values) const;
   // values += M.
   void AddMass(double* values) const;
+  // values := M - c D - c^2 K at (x, v), the matrix of an implicit step.
+  void AssembleStepMatrix(const double* x, const double* v, double c,
+                          std::vector<double>* values) const;
   // gx += c (dphi/dx)^T lambda, gv += c (dphi/dv)^T lambda.
   void AddAdjoint(const ForceState& state, const double* lambda, double c,
                   VelocityPart part, double* gx, double* gv) const;

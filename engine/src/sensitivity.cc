@@ -6,8 +6,8 @@
 #include "derivatives/gradient_pass.h"
 #include "derivatives/jacobian_cost.h"
 #include "derivatives/jacobian_pass.h"
+#include "dpe/engine/parallel.h"
 #include "object_system.h"
-#include "parallel.h"
 #include "rollout_tape.h"
 
 namespace dpe {

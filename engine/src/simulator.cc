@@ -2,12 +2,12 @@
 
 #include <limits>
 
+#include "dpe/engine/parallel.h"
 #include "dpe/engine/scene_io.h"
 #include "integrators/integrator.h"
 #include "memory_plan.h"
 #include "object_rollout.h"
 #include "object_system.h"
-#include "parallel.h"
 #include "rollout_tape.h"
 
 namespace dpe {

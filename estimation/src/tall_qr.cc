@@ -4,7 +4,8 @@
 #include <atomic>
 #include <mutex>
 #include <numeric>
-#include <thread>
+
+#include "dpe/engine/parallel.h"
 
 extern "C" {
 // QR of a triangle above a rectangle whose last l rows are a trapezium; compact WY
@@ -20,19 +21,6 @@ namespace {
 // Each stream costs an R and, at its end, 2/3 n^3 operations.
 constexpr int kMaxStreams = 8;
 constexpr int kColumnsPerPanel = 32;
-
-// Calls work(i) for i in [0, count) on up to `num_threads` threads.
-template <class Work>
-void ForEach(int num_threads, int count, const Work& work) {
-  std::atomic<int> next{0};
-  const auto loop = [&] {
-    for (int i = next++; i < count; i = next++) work(i);
-  };
-  std::vector<std::thread> threads;
-  for (int t = 1; t < std::min(num_threads, count); ++t) threads.emplace_back(loop);
-  loop();
-  for (std::thread& thread : threads) thread.join();
-}
 
 // R := the triangle of [R; rows], of whose rows the last `trapezium` are upper
 // triangular. Overwrites `rows`.
@@ -76,7 +64,7 @@ bool TallQr(const std::vector<int>& chunk_rows, int num_columns, int num_threads
   std::vector<Eigen::MatrixXd> triangles(num_streams);
   std::mutex fill_mutex;
   std::atomic<bool> ok{true};
-  ForEach(num_threads, num_streams, [&](int s) {
+  ParallelFor(num_threads, num_streams, [&](int s) {
     triangles[s].setZero(num_columns, num_columns);
     Folder folder(num_columns);
     Eigen::MatrixXd memory;
@@ -94,7 +82,7 @@ bool TallQr(const std::vector<int>& chunk_rows, int num_columns, int num_threads
   });
   for (int stride = 1; stride < num_streams && ok; stride *= 2) {
     const int num_pairs = (num_streams - stride + 2 * stride - 1) / (2 * stride);
-    ForEach(num_threads, num_pairs, [&](int pair) {
+    ParallelFor(num_threads, num_pairs, [&](int pair) {
       const int first = 2 * stride * pair;
       Folder(num_columns)
           .Fold(triangles[first + stride], num_columns, &triangles[first]);

@@ -35,10 +35,9 @@ constexpr int kRowsPerChunk = 512;
 // @param chunk_rows    number of rows of each chunk
 // @param num_columns   n
 // @param num_threads   threads to use
-// @param fill          writes chunk `i` into a column-major matrix of chunk_rows[i] by
-// n
-//                      that holds anything; called once per chunk, in no particular
-//                      order, from any thread but from one at a time; false gives up
+// @param fill          writes a chunk, rows x n, into a column-major matrix that holds
+//                      anything; called once per chunk, in no particular order, from
+//                      any thread but from one at a time; false gives up
 // @param r             n x n, zero below the diagonal; diagonal entries of either sign
 // @return              false if `fill` gave up
 bool TallQr(

@@ -63,10 +63,7 @@ struct ForcesFixture {
   }
 
   void AssembleStepMatrix() {
-    std::fill(values.begin(), values.end(), 0.0);
-    system->AddMass(values.data());
-    system->AddJacobian(Point(false), -kStep * kStep, -kStep, VelocityPart::kWhole,
-                        values.data());
+    system->AssembleStepMatrix(x.data(), v.data(), kStep, &values);
   }
 
   std::unique_ptr<ObjectSystem> system;

@@ -20,11 +20,8 @@ SymmetricMatrix StepMatrix(Case c) {
 
   const ObjectSystem system(scene, 0, ParameterLayout(scene));
   const BlockPattern& pattern = system.pattern();
-  const double h = scene.step_length();
-  std::vector<double> values(pattern.num_nonzeros(), 0.0);
-  system.AddMass(values.data());
-  system.AddJacobian({x.data(), v.data(), nullptr, nullptr}, -h * h, -h,
-                     VelocityPart::kWhole, values.data());
+  std::vector<double> values;
+  system.AssembleStepMatrix(x.data(), v.data(), scene.step_length(), &values);
   matrix.column_starts = pattern.column_starts();
   matrix.row_indices = pattern.row_indices();
   matrix.values.resize(values.size());

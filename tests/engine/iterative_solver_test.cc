@@ -90,11 +90,8 @@ int IterationsOnSide(int size, bool uneven) {
   ObjectSystem system(scene, 0, simulator.layout());
   const Eigen::VectorXd x = trajectory.positions[0].col(3);
   const Eigen::VectorXd v = trajectory.velocities[0].col(3);
-  const double h = scene.step_length();
-  std::vector<double> values(system.pattern().num_nonzeros());
-  system.AddMass(values.data());
-  system.AddJacobian({x.data(), v.data(), nullptr, nullptr}, -h * h, -h,
-                     VelocityPart::kWhole, values.data());
+  std::vector<double> values;
+  system.AssembleStepMatrix(x.data(), v.data(), scene.step_length(), &values);
   IterativeSolver solver(system.pattern());
   EXPECT_TRUE(solver.Prepare(values, false));
   const Eigen::VectorXd b = RandomVector(system.pattern().num_rows(), 1);

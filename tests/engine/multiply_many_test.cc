@@ -6,6 +6,7 @@
 #include <random>
 
 #include "dpe/engine/sensitivity.h"
+#include "linear/vector_kernels.h"
 #include "support/derivative_checker.h"
 
 namespace dpe::test {

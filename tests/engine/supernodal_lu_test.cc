@@ -35,8 +35,7 @@ class SupernodalLuTest : public testing::TestWithParam<LuCase> {};
 // With a small shift the symmetric part is indefinite, and not so with a large one.
 TEST_P(SupernodalLuTest, SolvesBothWaysForOneAndForManyRightHandSides) {
   const BlockPattern& pattern = GetParam().pattern;
-  const auto analysis = std::make_shared<SymbolicAnalysis>(pattern);
-  SupernodalLu lu(analysis->structure());
+  SupernodalLu lu(AnalyzePattern(pattern));
   std::vector<double> values(pattern.num_nonzeros()), work;
   for (const double skew : {0.5, 0.0, 0.3}) {  // after the first in used panels
     Fill(pattern, skew, 40.0, &values);
@@ -66,8 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Patterns, SupernodalLuTest, testing::ValuesIn(LuCases()
 
 TEST(SupernodalLuTest, ReportsPivotsThatAreNotThere) {
   const BlockPattern pattern = GridPattern(6, 6);
-  const SymbolicAnalysis analysis(pattern);
-  SupernodalLu lu(analysis.structure());
+  SupernodalLu lu(AnalyzePattern(pattern));
   std::vector<double> values(pattern.num_nonzeros()), work;
   EXPECT_FALSE(lu.Factorize(values.data(), /*symmetric=*/false, &work));  // all zeros
   Fill(pattern, 0.5, 30.0, &values);

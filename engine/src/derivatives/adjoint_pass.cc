@@ -8,7 +8,8 @@
 #include "derivatives/jacobian_pass.h"
 #include "derivatives/row_groups.h"
 #include "derivatives/stage_matrices.h"
-#include "parallel.h"
+#include "dpe/engine/parallel.h"
+#include "linear/vector_kernels.h"
 
 namespace dpe {
 namespace {

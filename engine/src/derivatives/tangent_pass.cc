@@ -5,7 +5,8 @@
 
 #include "derivatives/jacobian_pass.h"
 #include "derivatives/stage_matrices.h"
-#include "parallel.h"
+#include "dpe/engine/parallel.h"
+#include "linear/vector_kernels.h"
 
 namespace dpe {
 namespace {

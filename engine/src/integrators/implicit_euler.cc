@@ -25,7 +25,7 @@ bool ImplicitEuler::AdjointStep(ObjectSystem* system, StepSolver* solver,
                                 const StepStates& states, const StepAdjoint& adjoint) {
   const ForceState point = ExpansionPoint(*system, states);
   SetMu(*system, states.h, adjoint);
-  AssembleStepMatrix(system, solver, states.x1, states.v1, states.h);
+  system->AssembleStepMatrix(states.x1, states.v1, states.h, &solver->values());
   if (!PrepareSolver(*system, solver) || !SolveAdjoint(*system, solver)) return false;
   unused_.resize(system->num_coordinates());  // receives D^T lambda, which has no use
   system->AddAdjoint(point, lambda_.data(), states.h, VelocityPart::kWhole, adjoint.gx,
@@ -45,7 +45,7 @@ void ImplicitEuler::TangentStage(int /*stage*/, ObjectSystem* system,
                                  StageLinearization* out) {
   const ForceState point = ExpansionPoint(*system, states);
   out->c = states.h;
-  AssembleStepMatrix(system, solver, states.x1, states.v1, states.h);
+  system->AssembleStepMatrix(states.x1, states.v1, states.h, &solver->values());
   ClearLinearization(*system, out);
   system->AddJacobian(point, states.h, 0.0, VelocityPart::kWhole, out->rx.data());
   system->AddMass(out->rv.data());

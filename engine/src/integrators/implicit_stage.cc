@@ -56,10 +56,7 @@ double ImplicitStage::Residual() {
 
 bool ImplicitStage::NewtonStep() {
   std::vector<double>& values = solver_->values();
-  std::fill(values.begin(), values.end(), 0.0);
-  system_->AddMass(values.data());
-  system_->AddJacobian({x_, v_, nullptr, nullptr}, -c_ * c_, -c_, VelocityPart::kWhole,
-                       values.data());
+  system_->AssembleStepMatrix(x_, v_, c_, &values);
   system_->GatherFree(residual_.data(), free_.data());
   for (double& value : free_) value = -value;
   rounding_ = RoundingLevel(values.data());

@@ -18,15 +18,6 @@ const double* Integrator::Difference(const ObjectSystem& system, const double* a
   return difference_.data();
 }
 
-void Integrator::AssembleStepMatrix(ObjectSystem* system, StepSolver* solver,
-                                    const double* x, const double* v, double c) {
-  std::vector<double>& values = solver->values();
-  std::fill(values.begin(), values.end(), 0.0);
-  system->AddMass(values.data());
-  system->AddJacobian({x, v, nullptr, nullptr}, -c * c, -c, VelocityPart::kWhole,
-                      values.data());
-}
-
 void Integrator::SetMu(const ObjectSystem& system, double c,
                        const StepAdjoint& adjoint) {
   lambda_.assign(system.num_coordinates(), 0.0);

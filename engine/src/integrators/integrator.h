@@ -116,9 +116,6 @@ class Integrator {
   // b - a, into a buffer that the next call overwrites; zero at fixed vertices.
   const double* Difference(const ObjectSystem& system, const double* a,
                            const double* b);
-  // The solver's matrix := M - c D - c^2 K at (x, v).
-  static void AssembleStepMatrix(ObjectSystem* system, StepSolver* solver,
-                                 const double* x, const double* v, double c);
   // lambda_ := A^{-T} mu for the mu (3N) that lambda_ holds; the solver is ready.
   bool SolveAdjoint(const ObjectSystem& system, StepSolver* solver);
   // lambda_ := gv + c gx at free vertices, 0 elsewhere.

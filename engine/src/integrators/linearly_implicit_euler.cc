@@ -24,7 +24,7 @@ StepOutcome LinearlyImplicitEuler::Step(ObjectSystem* system, StepSolver* solver
   for (int c = 0; c < n; ++c) direction_x_[c] = h * states.v0[c];
   system->Force({states.x0, states.v0, direction_x_.data(), direction_v_.data()},
                 force_.data());
-  AssembleStepMatrix(system, solver, states.x0, states.v0, h);
+  system->AssembleStepMatrix(states.x0, states.v0, h, &solver->values());
   free_.resize(system->pattern().num_rows());
   system->GatherFree(force_.data(), free_.data());
   for (double& value : free_) value *= h;
@@ -51,7 +51,7 @@ bool LinearlyImplicitEuler::AdjointStep(ObjectSystem* system, StepSolver* solver
                                         const StepStates& states,
                                         const StepAdjoint& adjoint) {
   SetMu(*system, states.h, adjoint);
-  AssembleStepMatrix(system, solver, states.x0, states.v0, states.h);
+  system->AssembleStepMatrix(states.x0, states.v0, states.h, &solver->values());
   if (!PrepareSolver(*system, solver) || !SolveAdjoint(*system, solver)) return false;
   for (int i : system->free_vertices()) {
     for (int c = 3 * i; c < 3 * i + 3; ++c) {
@@ -70,7 +70,7 @@ void LinearlyImplicitEuler::TangentStage(int /*stage*/, ObjectSystem* system,
                                          StageLinearization* out) {
   const ForceState point = ExpansionPoint(*system, states);
   out->c = states.h;
-  AssembleStepMatrix(system, solver, states.x0, states.v0, states.h);
+  system->AssembleStepMatrix(states.x0, states.v0, states.h, &solver->values());
   ClearLinearization(*system, out);
   system->AddJacobian(point, states.h, 0.0, VelocityPart::kWhole, out->rx.data());
   system->AddMass(out->rv.data());

@@ -80,7 +80,7 @@ bool TrBdf2::AdjointStep(ObjectSystem* system, StepSolver* solver,
   // Second stage: (gx, gv) become the adjoint of its input.
   const ForceState end{states.x1, states.v1, nullptr, nullptr};
   SetMu(*system, c, adjoint);
-  AssembleStepMatrix(system, solver, states.x1, states.v1, c);
+  system->AssembleStepMatrix(states.x1, states.v1, c, &solver->values());
   if (!PrepareSolver(*system, solver) || !SolveAdjoint(*system, solver)) return false;
   system->AddAdjoint(end, lambda_.data(), c, VelocityPart::kWhole, adjoint.gx,
                      unused_.data());
@@ -100,7 +100,7 @@ bool TrBdf2::AdjointStep(ObjectSystem* system, StepSolver* solver,
   const ForceState start{states.x0, states.v0, nullptr, nullptr};
   const ForceState middle{states.xs, states.vs, nullptr, nullptr};
   SetMu(*system, c, {gx_stage_.data(), gv_stage_.data(), nullptr});
-  AssembleStepMatrix(system, solver, states.xs, states.vs, c);
+  system->AssembleStepMatrix(states.xs, states.vs, c, &solver->values());
   if (!PrepareSolver(*system, solver) || !SolveAdjoint(*system, solver)) return false;
   for (int i = 0; i < system->num_vertices(); ++i) {
     for (int k = 3 * i; k < 3 * i + 3; ++k) {
@@ -133,7 +133,7 @@ void TrBdf2::TangentStage(int stage, ObjectSystem* system, StepSolver* solver,
   const ForceState end{states.x1, states.v1, nullptr, nullptr};
   const ForceState& point = stage == 0 ? middle : end;
   out->c = c;
-  AssembleStepMatrix(system, solver, point.x, point.v, c);
+  system->AssembleStepMatrix(point.x, point.v, c, &solver->values());
   ClearLinearization(*system, out);
   system->AddJacobian(point, c, 0.0, VelocityPart::kWhole, out->rx.data());
   system->AddMass(out->rv.data());

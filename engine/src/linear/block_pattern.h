@@ -46,6 +46,10 @@ class BlockPattern {
   // y = A x, or y = A^T x, for values in this pattern.
   void Multiply(const double* values, const double* x, double* y) const;
   void MultiplyTransposed(const double* values, const double* x, double* y) const;
+  void Multiply(const double* values, bool transposed, const double* x,
+                double* y) const {
+    transposed ? MultiplyTransposed(values, x, y) : Multiply(values, x, y);
+  }
 
  private:
   void BuildScalarColumns();

@@ -1,8 +1,7 @@
 #include "linear/block_solver.h"
 
-#include <cmath>
-
 namespace dpe {
+
 bool BlockSolver::Prepare(StepSolver* solver, bool symmetric, int num_columns) {
   solver_ = solver;
   factor_ = {};

@@ -6,6 +6,7 @@
 
 #include "linear/gmres.h"
 #include "linear/supernodal_solve.h"
+#include "linear/symbolic_analysis.h"
 
 namespace dpe {
 namespace {
@@ -24,9 +25,9 @@ using Vector = Eigen::Map<Eigen::VectorXd>;
 
 }  // namespace
 
-const std::shared_ptr<SymbolicAnalysis>& DirectSolverContext::analysis() {
-  if (!analysis_) analysis_ = std::make_shared<SymbolicAnalysis>(pattern);
-  return analysis_;
+const std::shared_ptr<const SupernodalStructure>& DirectSolverContext::structure() {
+  if (!structure_) structure_ = AnalyzePattern(pattern);
+  return structure_;
 }
 
 DirectSolver::DirectSolver(std::shared_ptr<DirectSolverContext> context)
@@ -39,7 +40,7 @@ bool DirectSolver::Factorize(const std::vector<double>& values, bool symmetric) 
   is_exact_ = true;
   symmetric_ = symmetric;
   kind_ = Kind::kNone;
-  if (!lu_) lu_ = std::make_unique<SupernodalLu>(context_->analysis()->structure());
+  if (!lu_) lu_ = std::make_unique<SupernodalLu>(context_->structure());
   if (lu_->Factorize(values.data(), symmetric, &context_->factorization_work)) {
     kind_ = Kind::kLu;
   }
@@ -50,15 +51,6 @@ bool DirectSolver::KeepFactorization(const std::vector<double>& values) {
   is_exact_ = false;
   // Partial pivoting is the last resort, without an iteration that could make up.
   return kind_ != Kind::kPivotedLu || FactorizeWithPivots(values);
-}
-
-void DirectSolver::Multiply(const std::vector<double>& values, const double* x,
-                            double* y, bool transposed) const {
-  if (transposed) {
-    pattern_.MultiplyTransposed(values.data(), x, y);
-  } else {
-    pattern_.Multiply(values.data(), x, y);
-  }
 }
 
 SupernodalFactor DirectSolver::factor() const {
@@ -107,7 +99,7 @@ bool DirectSolver::SolveByFactor(const std::vector<double>& values, double* z,
     SolveSupernodal(lu, &context_->solve_work, y);
   };
   const auto multiply = [&](const double* x, double* y) {
-    Multiply(values, x, y, transposed);
+    pattern_.Multiply(values.data(), transposed, x, y);
   };
   const double scale = right.norm();
   if (!std::isfinite(scale)) return false;
@@ -144,7 +136,7 @@ SupernodalFactor DirectSolver::ExactFactor(const std::vector<double>& values) {
   solution.resize(std::max<size_t>(solution.size(), n));
   std::copy_n(test.data(), n, solution.data());
   SolveSupernodal(factor(), &context_->solve_work, solution.data());
-  Multiply(values, solution.data(), residual.data(), /*transposed=*/false);
+  pattern_.Multiply(values.data(), solution.data(), residual.data());
   if (!((test - residual).norm() <= kAccept * test.norm())) return {};
   return factor();
 }
@@ -176,7 +168,8 @@ bool DirectSolver::SolveWithPivots(const std::vector<double>& values, const doub
   };
   const Eigen::VectorXd right = ConstVector(b, n);
   Eigen::VectorXd solution = solve(right);
-  Multiply(values, solution.data(), context_->residual.data(), transposed);
+  pattern_.Multiply(values.data(), transposed, solution.data(),
+                    context_->residual.data());
   // One step of refinement.
   solution += solve(right - ConstVector(context_->residual.data(), n));
   Vector(z, n) = solution;

@@ -23,7 +23,7 @@
 #include "linear/block_pattern.h"
 #include "linear/kept_factor.h"
 #include "linear/supernodal_lu.h"
-#include "linear/symbolic_analysis.h"
+#include "linear/supernodal_structure.h"
 
 namespace dpe {
 
@@ -33,14 +33,14 @@ struct DirectSolverContext {
   explicit DirectSolverContext(const BlockPattern& pattern) : pattern(pattern) {}
 
   // Made at the first use: large systems may never need it.
-  const std::shared_ptr<SymbolicAnalysis>& analysis();
+  const std::shared_ptr<const SupernodalStructure>& structure();
 
   const BlockPattern& pattern;
   std::vector<double> factorization_work, solve_work;
   std::vector<double> residual, right, basis;
 
  private:
-  std::shared_ptr<SymbolicAnalysis> analysis_;
+  std::shared_ptr<const SupernodalStructure> structure_;
 };
 
 class DirectSolver {
@@ -79,8 +79,6 @@ class DirectSolver {
   using PivotedLu = Eigen::SparseLU<Eigen::SparseMatrix<double>>;
   enum class Kind { kNone, kLu, kKept, kPivotedLu };
 
-  void Multiply(const std::vector<double>& values, const double* x, double* y,
-                bool transposed) const;
   SupernodalFactor factor() const;
   // z with a residual as small as it gets; false if it is not small enough.
   bool SolveByFactor(const std::vector<double>& values, double* z, bool transposed,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "linear/block_product.h"
 #include "linear/vector_kernels.h"
 
 namespace dpe {
@@ -34,16 +33,8 @@ bool IterativeSolver::Prepare(const std::vector<double>& values, bool transposed
   return multigrid_.Compute(pattern_, values_, transposed);
 }
 
-void IterativeSolver::Multiply(const double* x, double* y) const {
-  if (transposed_) {
-    BlockProductTransposed(pattern_, values_, x, y);
-  } else {
-    BlockProduct(pattern_, values_, x, y);
-  }
-}
-
 double IterativeSolver::TrueResidual(const double* b, const double* z) {
-  Multiply(z, residual_.data());
+  pattern_.Multiply(values_, transposed_, z, residual_.data());
   SubtractScaled(residual_.size(), b, 1.0, residual_.data());
   return Norm(residual_);
 }
@@ -53,7 +44,7 @@ double IterativeSolver::Start(const double* b, double* z) {
   double c = 0.0;
   if (Dot(n, z, z) > 0.0) {
     // A guess of the right shape and the wrong size is a good guess.
-    Multiply(z, residual_.data());
+    pattern_.Multiply(values_, transposed_, z, residual_.data());
     c = Dot(n, residual_.data(), b) / Dot(n, residual_.data(), residual_.data());
   }
   if (c == 0.0 || !std::isfinite(c)) {

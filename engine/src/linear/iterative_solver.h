@@ -57,7 +57,6 @@ class IterativeSolver {
     double a = 0.0;
   };
 
-  void Multiply(const double* x, double* y) const;
   // z := c z for the best c. Like TrueResidual for that.
   double Start(const double* b, double* z);
   // residual_ := b - A z. Returns its norm.

@@ -25,9 +25,7 @@ namespace dpe {
 class Multigrid {
  public:
   // @param values  of A in `pattern`; the preconditioner is for A^T if `transposed`
-  // @return        false if there is none: a diagonal block is singular, or something
-  // is
-  //                not finite
+  // @return        false if there is none: a diagonal block is singular or not finite
   bool Compute(const BlockPattern& pattern, const double* values, bool transposed);
 
   // The matrix that this is for, in single precision and multiplied by scale(), a power

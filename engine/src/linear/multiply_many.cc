@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "linear/vector_kernels.h"
 #include "linear/vectorize.h"
 
 namespace dpe {
@@ -97,19 +98,6 @@ void BlockRows::Multiply(const double* in, int count, double scale, const double
       AddOneBlock(blocks_.data() + 9L * k, in + columns_[k] * stride, count, row);
     }
   }
-}
-
-DPE_VECTORIZE
-void Combine(long size, double a, const double* x, double b, const double* y,
-             double* out) {
-#pragma omp simd
-  for (long k = 0; k < size; ++k) out[k] = a * x[k] + b * y[k];
-}
-
-DPE_VECTORIZE
-void AddScaled(long size, double a, const double* x, double* out) {
-#pragma omp simd
-  for (long k = 0; k < size; ++k) out[k] += a * x[k];
 }
 
 }  // namespace dpe

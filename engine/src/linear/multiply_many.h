@@ -31,13 +31,6 @@ class BlockRows {
   std::vector<int> next_;       // scratch of Assign
 };
 
-// out = a x + b y, arrays of `size` numbers; out may be x or y.
-void Combine(long size, double a, const double* x, double b, const double* y,
-             double* out);
-
-// out += a x.
-void AddScaled(long size, double a, const double* x, double* out);
-
 }  // namespace dpe
 
 #endif  // DPE_ENGINE_LINEAR_MULTIPLY_MANY_H_

@@ -83,9 +83,8 @@ class StepSolver {
   // that cannot be solved to rounding level (to the tolerance, by the Krylov method).
   //
   // @param guess     if not null, where a Krylov method starts from
-  // @param accuracy  the relative residual that is enough for the direct way; 0:
-  // rounding
-  //                  level
+  // @param accuracy  the relative residual that suffices the direct way; 0: rounding
+  // level
   bool Solve(const double* b, double* z, bool transposed, const double* guess = nullptr,
              double accuracy = 0.0);
 

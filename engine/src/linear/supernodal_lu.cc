@@ -151,24 +151,29 @@ void SupernodalLu::MakeRemainder(int s, double* work) {
         lower_.data() + start + i, rows, upper_.data() + start + j, 1, rows,
         remainder + i + static_cast<long>(j) * below, below);
   }
-  for (int child = structure_->first_child[s]; child >= 0;
-       child = structure_->next_sibling[child]) {
-    const long size = structure_->num_rows(child) - structure_->num_columns(child);
-    const double* in = work + structure_->remainder_start[child];
-    const SupernodalStructure::Run* begin =
-        structure_->runs.data() + structure_->run_start[child];
-    const SupernodalStructure::Run* const end =
-        structure_->runs.data() + structure_->run_start[child + 1];
-    while (begin != end && begin->place < columns) ++begin;
-    for (const SupernodalStructure::Run* run = begin; run != end; ++run) {
-      for (int k = 0; k < run->length; ++k) {
-        const double* column = in + (run->first + k) * size;
-        double* out = remainder + (run->place + k - columns) * below - columns;
-        for (const SupernodalStructure::Run* other = symmetric_ ? run : begin;
-             other != end; ++other) {
-          for (int i = 0; i < other->length; ++i) {
-            out[other->place + i] += column[other->first + i];
-          }
+  for (int c = structure_->first_child[s]; c >= 0; c = structure_->next_sibling[c]) {
+    AddToRemainder(c, s, work + structure_->remainder_start[c], remainder);
+  }
+}
+
+// Adds the other entries of the remainder of `child`, those between rows below the own
+// columns of the parent `s`, to its remainder.
+void SupernodalLu::AddToRemainder(int child, int s, const double* in,
+                                  double* remainder) {
+  using Run = SupernodalStructure::Run;
+  const int columns = structure_->num_columns(s);
+  const long below = structure_->num_rows(s) - columns;
+  const long size = structure_->num_rows(child) - structure_->num_columns(child);
+  const Run* begin = structure_->runs.data() + structure_->run_start[child];
+  const Run* const end = structure_->runs.data() + structure_->run_start[child + 1];
+  while (begin != end && begin->place < columns) ++begin;
+  for (const Run* run = begin; run != end; ++run) {
+    for (int k = 0; k < run->length; ++k) {
+      const double* column = in + (run->first + k) * size;
+      double* out = remainder + (run->place + k - columns) * below - columns;
+      for (const Run* other = symmetric_ ? run : begin; other != end; ++other) {
+        for (int i = 0; i < other->length; ++i) {
+          out[other->place + i] += column[other->first + i];
         }
       }
     }

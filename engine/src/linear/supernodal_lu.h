@@ -49,6 +49,7 @@ class SupernodalLu {
   void Assemble(int s, const double* values);
   void AddToPanels(int child, int s, const double* remainder);
   void MakeRemainder(int s, double* work);
+  void AddToRemainder(int child, int s, const double* in, double* remainder);
   bool FactorizeColumns(int s, int begin, int end);
   bool FactorizePanel(int s, int begin, int end);
 

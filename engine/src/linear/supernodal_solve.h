@@ -1,5 +1,5 @@
-// Triangular solves with a supernodal factorisation A = L U or A = L L^T, for one
-// right-hand side and for many.
+// Triangular solves with a supernodal factorisation A = L U, for one right-hand side
+// and for many.
 //
 // CHOLMOD's own solve calls BLAS four times per supernode, which for the narrow
 // supernodes of small cloths costs more than the arithmetic (19 us instead of 7 us at
@@ -13,8 +13,7 @@
 namespace dpe {
 
 // The arrays of a supernodal factor, see supernodal_structure.h. `lower` holds the
-// panels of L and `upper` those of U^T (for L L^T both are the same), each with its
-// diagonal.
+// panels of L and `upper` those of U^T, each with its diagonal.
 struct SupernodalFactor {
   int num_supernodes = 0;
   const int* first_column = nullptr;

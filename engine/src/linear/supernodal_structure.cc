@@ -45,7 +45,6 @@ SupernodalStructure::SupernodalStructure(const BlockPattern& pattern,
   value_start.push_back(0);
   for (int s = 0; s < num_supernodes; ++s) {
     assert(num_columns(s) % 3 == 0 && num_rows(s) % 3 == 0);
-    max_rows = std::max(max_rows, num_rows(s));
     value_start.push_back(value_start.back() +
                           static_cast<size_t>(num_rows(s)) * num_columns(s));
   }

@@ -31,6 +31,7 @@ struct SupernodalStructure {
     int target;
   };
 
+  // Consecutive rows that are consecutive among the parent's rows too.
   struct Run {
     int first;  // among the rows below the own columns of s, from 0
     int place;  // of `first` among the parent's rows
@@ -45,7 +46,6 @@ struct SupernodalStructure {
   size_t num_values() const { return value_start.back(); }
 
   int num_supernodes = 0;
-  int max_rows = 0;
   std::vector<int> first_column, row_start, rows;
   std::vector<size_t> value_start;
 

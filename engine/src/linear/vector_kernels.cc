@@ -39,6 +39,19 @@ void AddScaled(size_t n, double a, const float* __restrict x, double* __restrict
 }
 
 DPE_VECTORIZE
+void AddScaled(size_t n, double a, const double* x, double* y) {
+#pragma omp simd
+  for (size_t i = 0; i < n; ++i) y[i] += a * x[i];
+}
+
+DPE_VECTORIZE
+void Combine(size_t n, double a, const double* x, double b, const double* y,
+             double* out) {
+#pragma omp simd
+  for (size_t i = 0; i < n; ++i) out[i] = a * x[i] + b * y[i];
+}
+
+DPE_VECTORIZE
 void Scale(size_t n, double a, const double* x, double* y) {
   for (size_t i = 0; i < n; ++i) y[i] = a * x[i];
 }

@@ -1,4 +1,5 @@
-// The vector operations of Krylov methods, on raw arrays and vectorised at run time.
+// The vector operations of Krylov methods and derivative passes, on raw arrays and
+// vectorised at run time.
 #ifndef DPE_ENGINE_LINEAR_VECTOR_KERNELS_H_
 #define DPE_ENGINE_LINEAR_VECTOR_KERNELS_H_
 
@@ -12,6 +13,10 @@ float Dot(size_t n, const float* x, const float* y);
 // y += a x.
 void AddScaled(size_t n, float a, const float* x, float* y);
 void AddScaled(size_t n, double a, const float* x, double* y);
+void AddScaled(size_t n, double a, const double* x, double* y);
+// out := a x + b y; out may be x or y.
+void Combine(size_t n, double a, const double* x, double b, const double* y,
+             double* out);
 // y := a x.
 void Scale(size_t n, double a, const double* x, double* y);
 void Scale(size_t n, float a, const float* x, float* y);
