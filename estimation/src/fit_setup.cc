@@ -78,11 +78,20 @@ int NumFramesToFit(const Scene& scene, const Observations& observations,
 }
 
 Observations FirstFrames(const Observations& observations, int num_frames) {
-  Observations first;
-  for (const Eigen::MatrixXd& p : observations.positions) {
-    first.positions.push_back(
-        p.size() > 0 ? p.leftCols(std::min<int>(num_frames, p.cols())).eval() : p);
-  }
+  Observations first = observations;
+  const auto cut = [num_frames](std::vector<Eigen::MatrixXd>* matrices) {
+    for (Eigen::MatrixXd& m : *matrices) {
+      if (m.cols() > num_frames) m.conservativeResize(Eigen::NoChange, num_frames);
+    }
+  };
+  cut(&first.positions);
+  cut(&first.sigmas);
+  const auto is_late = [num_frames](const MarkerSample& sample) {
+    return sample.time > num_frames - 1;
+  };
+  first.samples.erase(
+      std::remove_if(first.samples.begin(), first.samples.end(), is_late),
+      first.samples.end());
   return first;
 }
 

@@ -1,5 +1,6 @@
 #include "dpe/estimation/observations.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -7,10 +8,14 @@
 namespace dpe {
 
 int Observations::num_frames() const {
+  int frames = 0;
   for (const Eigen::MatrixXd& p : positions) {
-    if (p.size() > 0) return static_cast<int>(p.cols());
+    if (p.size() > 0) frames = std::max(frames, static_cast<int>(p.cols()));
   }
-  return 0;
+  for (const MarkerSample& sample : samples) {
+    frames = std::max(frames, static_cast<int>(std::ceil(sample.time)) + 1);
+  }
+  return frames;
 }
 
 bool Observations::IsObserved(int object, int vertex, int frame) const {
@@ -44,7 +49,9 @@ bool Observations::IsComplete(const Scene& scene, int object) const {
 }
 
 Observations ObserveAll(const Trajectory& trajectory) {
-  return Observations{trajectory.positions};
+  Observations observations;
+  observations.positions = trajectory.positions;
+  return observations;
 }
 
 void AddNoise(const Scene& scene, double sigma, std::uint64_t seed, Observations* obs) {

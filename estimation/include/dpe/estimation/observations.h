@@ -1,9 +1,11 @@
-// What was seen of the cloth: vertex positions, frame by frame, possibly with gaps.
+// What was seen of the cloth: positions of vertices at frames, possibly with gaps, and
+// of markers anywhere on it at any time.
 #ifndef DPE_ESTIMATION_OBSERVATIONS_H_
 #define DPE_ESTIMATION_OBSERVATIONS_H_
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "dpe/engine/scene.h"
@@ -11,11 +13,42 @@
 
 namespace dpe {
 
+// A point of the cloth that is observed: a fixed combination of vertices of one object.
+struct Marker {
+  std::string name;
+  int object = 0;
+  std::vector<int> vertices;    // one, or the three of a triangle
+  std::vector<double> weights;  // barycentric coordinates, sum 1
+  double distance = 0.0;        // m, from the cloth when it was attached
+};
+
+// A marker's position at a moment that need not be a frame.
+struct MarkerSample {
+  int marker = 0;                                      // index into markers
+  double time = 0.0;                                   // in frames since frame 0, >= 0
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // m
+  double sigma = 0.0;                                  // m; 0: Observations::sigma
+};
+
 struct Observations {
-  // One matrix per object, 3N x F, m; NaN where a vertex was not observed at a frame;
-  // 0 x 0 for objects that were not observed at all.
+  // What was seen of vertices at frames. One matrix per object, 3N x F, m; NaN where a
+  // vertex was not observed at a frame; 0 x 0 for objects that were not observed at
+  // all.
   std::vector<Eigen::MatrixXd> positions;
 
+  // Standard deviation of the noise on each coordinate, m, one N x F matrix per object;
+  // NaN, or an empty vector or matrix: `sigma`.
+  std::vector<Eigen::MatrixXd> sigmas;
+
+  // What was seen elsewhere: between vertices or between frames.
+  std::vector<Marker> markers;
+  std::vector<MarkerSample> samples;
+
+  // Standard deviation of every coordinate for which nothing else is given, m; 0: not
+  // known.
+  double sigma = 0.0;
+
+  // Frames that `positions` and `samples` reach into, frame 0 included.
   int num_frames() const;
   bool IsObserved(int object, int vertex, int frame) const;
   // Number of (vertex, frame) pairs observed of one object.
