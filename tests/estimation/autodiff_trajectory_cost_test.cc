@@ -138,6 +138,13 @@ TEST_F(AutodiffTrajectoryCostTest, DerivativesAgreeWithDifferences) {
   EXPECT_TRUE(second.ok) << second.message;
 }
 
+TEST_F(AutodiffTrajectoryCostTest, DerivativesOfOneObjectAtTwoFramesAreKeptApart) {
+  const auto cost =
+      MakeAutodiffCost<2, 2, 1>(scene_, Mixed(), {{0, 2, {4, 7}}, {0, 4, {4}}});
+  const TrajectoryCostCheck check = CheckTrajectoryCost(*cost, trajectory_, 1e-8);
+  EXPECT_TRUE(check.ok) << check.message;
+}
+
 TEST_F(AutodiffTrajectoryCostTest, EvaluatesAManyVertexFunctorOncePerStride) {
   for (const int num_vertices : {2, 5, 16}) {
     std::vector<int> vertices(num_vertices);
