@@ -40,9 +40,9 @@ TrajectoryFormat FormatOf(const std::string& path, TrajectoryFormat format) {
 }
 
 std::vector<std::string> WriteObjSequence(const std::string& pattern,
-                                          const PointFrames& points,
+                                          const PointFrames& points, int num_frames,
                                           const Scene& scene) {
-  CheckObjPattern(pattern, points.num_frames);
+  CheckObjPattern(pattern, num_frames);
   const std::filesystem::path folder = std::filesystem::path(pattern).parent_path();
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
@@ -53,6 +53,10 @@ std::vector<std::string> WriteObjSequence(const std::string& pattern,
   for (int f = 0; f < points.num_frames; ++f) {
     files.push_back(ObjFrameName(pattern, f));
     WriteFileAtomically(files.back(), FrameToObj(points, scene, f));
+  }
+  // Of an earlier run: whoever reads the pattern would take them for this one's.
+  for (int f = points.num_frames; f < num_frames; ++f) {
+    std::filesystem::remove(ObjFrameName(pattern, f), error);
   }
   return files;
 }
@@ -127,7 +131,9 @@ std::vector<std::string> WriteTrajectory(const std::string& path,
   if (points.num_frames == 0) {
     throw SceneError(path + ": there is no whole frame to write");
   }
-  if (format == TrajectoryFormat::kObj) return WriteObjSequence(path, points, scene);
+  if (format == TrajectoryFormat::kObj) {
+    return WriteObjSequence(path, points, trajectory.num_frames(), scene);
+  }
   WriteFileAtomically(path, format == TrajectoryFormat::kPc2 ? PointsToPc2(points)
                                                              : PointsToNpy(points));
   return {path};

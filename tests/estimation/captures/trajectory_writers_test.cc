@@ -91,7 +91,9 @@ TEST_F(TrajectoryWriters, FramesFromAFailureOnAreLeftOut) {
   trajectory_.positions[1](4, 7) = std::numeric_limits<double>::quiet_NaN();
   Write("a.npy");
   EXPECT_EQ(Read("a.npy").num_frames(), 7);
+  WriteFile(dir_.File("a_0011.obj"), "of an earlier run");
   EXPECT_EQ(Write("a_*.obj").size(), 7u);
+  EXPECT_EQ(Read("a_*.obj").num_frames(), 7);
   trajectory_.positions[1](4, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(ErrorOf([&] { Write("b.pc2"); }), HasSubstr("no whole frame"));
   EXPECT_FALSE(std::filesystem::exists(dir_.File("b.pc2")));
@@ -105,7 +107,7 @@ TEST_F(TrajectoryWriters, FilesOfALongerRunAreNotMixedIn) {
       ErrorOf([&] { CheckTrajectoryOutput(pattern, TrajectoryFormat::kAuto, 11); }),
       AllOf(StartsWith(pattern), HasSubstr("a_0011.obj"), HasSubstr("11 frames")));
   CheckTrajectoryOutput(pattern, TrajectoryFormat::kAuto, 12);
-  trajectory_.positions[0] = trajectory_.positions[0].leftCols(3).eval();
+  for (Eigen::MatrixXd& p : trajectory_.positions) p = p.leftCols(3).eval();
   EXPECT_THAT(ErrorOf([&] { Write("a_*.obj"); }), HasSubstr("3 frames"));
 }
 

@@ -52,7 +52,8 @@ void CheckTrajectoryOutput(const std::string& path, TrajectoryFormat format,
 //
 // @param path  file; for OBJ a pattern with one '*', which becomes the number of the
 //              frame, of four or more digits: "frames/cloth_*.obj". Its folder is
-//              created if it is missing.
+//              created if it is missing; files of frames that the trajectory did not
+//              reach are removed.
 // @return      the files written
 // @throws SceneError if a file cannot be written, for a pattern without '*' or with
 // more
