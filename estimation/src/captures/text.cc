@@ -26,9 +26,10 @@ std::string ReadWholeFile(const std::string& path) {
 }
 
 std::string_view Trim(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 std::string Excerpt(std::string_view text) { return std::string(text.substr(0, 60)); }
@@ -104,11 +105,15 @@ void AppendNumber(double value, std::string* text) {
 
 bool LineReader::Next(std::string_view* line) {
   if (rest_.empty()) return false;
-  // A lone carriage return ends a line too: old exporters write them.
-  const size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
-  *line = rest_.substr(0, end);
+  size_t end = std::min(rest_.find('\n'), rest_.size());
   size_t next = end + 1;
-  if (end + 1 < rest_.size() && rest_[end] == '\r' && rest_[end + 1] == '\n') ++next;
+  // A lone carriage return ends a line too: old exporters write them.
+  const size_t cr = rest_.substr(0, end).find('\r');
+  if (cr != std::string_view::npos) {
+    if (cr + 1 < end || end == rest_.size()) next = cr + 1;
+    end = cr;
+  }
+  *line = rest_.substr(0, end);
   rest_.remove_prefix(std::min(next, rest_.size()));
   ++number_;
   return true;

@@ -37,6 +37,19 @@ TEST_F(CsvCapture, TimesMarkersAndSigmas) {
   EXPECT_EQ(c.samples[3].marker, 0);
 }
 
+TEST_F(CsvCapture, LineBreaksOfAnySystem) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    const std::string text =
+        "frame,vertex,x,y,z" + end + end + "0,0,1,2,3" + end + "1,0,1,2,3" + end;
+    for (const size_t cut : {size_t(0), end.size()}) {  // with and without the last
+      const Capture c = Read(text.substr(0, text.size() - cut));
+      ASSERT_EQ(c.samples.size(), 2u);
+      EXPECT_EQ(c.samples[1].line, 4);
+      EXPECT_EQ(c.samples[1].position.z(), 3.0);
+    }
+  }
+}
+
 TEST_F(CsvCapture, OtherPairsOfColumns) {
   EXPECT_THAT(Read("frame,marker,x,y,z\n0,A,1,2,3\n").marker_names, ElementsAre("A"));
   const Capture c = Read("time,vertex,x,y,z\n0.1,3,1,2,3\n");
