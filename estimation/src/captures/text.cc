@@ -32,7 +32,14 @@ std::string_view Trim(std::string_view text) {
   return text;
 }
 
-std::string Excerpt(std::string_view text) { return std::string(text.substr(0, 60)); }
+std::string Excerpt(std::string_view text) {
+  std::string excerpt(text.substr(0, 60));
+  // Binary files are taken for text when nothing else fits.
+  for (char& c : excerpt) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  }
+  return excerpt;
+}
 
 int ParseIndex(std::string_view field, const char* name, int limit,
                const std::string& path, int line) {

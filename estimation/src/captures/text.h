@@ -24,7 +24,7 @@ std::string ReadWholeFile(const std::string& path);
 // Without white space at both ends.
 std::string_view Trim(std::string_view text);
 
-// At most 60 characters of it, for a message.
+// At most 60 characters of it, for a message, control characters replaced.
 std::string Excerpt(std::string_view text);
 
 // The number that fills all of `field`; false if it does not.

@@ -59,12 +59,14 @@ TEST_F(ObservedScene, MarkersBetweenFramesCount) {
   Marker mixed{"c", 0, {3, 6, 7}, {0.1, 0.8, 0.1}, 0.0};
   observations_.markers = {alone, corner, mixed};
   observations_.samples = {{0, 0.5, {1, 0, 0}, 0.0},
-                           {2, 0.75, {9, 9, 9}, 0.0},
                            {1, 1.0, {2, 0, 0}, 0.0},
-                           {0, 1.5, {3, 0, 0}, 0.0}};
+                           {0, 1.5, {3, 0, 0}, 0.0},
+                           {2, 2.0, {9, 9, 9}, 0.0}};
   FollowObservedPins(observations_, "target", &scene_);
   EXPECT_TRUE(PathOf(7).positions.col(1).isApprox(Eigen::Vector3d(2, 0, 0)));
   EXPECT_TRUE(PathOf(6).positions.col(1).isApprox(Eigen::Vector3d(2, 0, 0)));
+  // A marker beside the vertex says nothing of where the vertex is.
+  EXPECT_TRUE(PathOf(6).positions.col(2).isApprox(Eigen::Vector3d(2, 0, 0)));
 }
 
 TEST_F(ObservedScene, APinThatIsNeverSeenIsRefused) {

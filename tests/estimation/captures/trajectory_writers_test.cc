@@ -99,6 +99,16 @@ TEST_F(TrajectoryWriters, FramesFromAFailureOnAreLeftOut) {
   EXPECT_FALSE(std::filesystem::exists(dir_.File("b.pc2")));
 }
 
+// What the format's definition asks for, and readers that map files into memory need.
+TEST_F(TrajectoryWriters, NumbersOfAnArrayAreAligned) {
+  Write("a.npy");
+  const std::string bytes = ReadFile(dir_.File("a.npy"));
+  const size_t begin = bytes.find('\n') + 1;
+  EXPECT_EQ(begin % 64, 0u);
+  EXPECT_EQ(static_cast<unsigned char>(bytes[8]) + 10u, begin);
+  EXPECT_EQ(bytes.size(), begin + 12 * 28 * 3 * 8);
+}
+
 TEST_F(TrajectoryWriters, FilesOfALongerRunAreNotMixedIn) {
   Write("a_*.obj");
   Write("a_*.obj");
