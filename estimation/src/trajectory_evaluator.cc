@@ -87,6 +87,7 @@ bool TrajectoryEvaluator::EvaluateCosts() {
   if (cost() < best_cost_) {
     best_cost_ = cost();
     best_coordinates_ = coordinates_;
+    if (options_.improved) options_.improved();
   }
   return true;
 }

@@ -30,6 +30,8 @@ struct TrajectoryEvaluatorOptions {
   Timings* timings = nullptr;  // both as in SimulatorOptions
   // Polled once per step; true makes the evaluation in progress fail.
   std::function<bool()> interrupted;
+  // Called after every evaluation whose cost is the least so far.
+  std::function<void()> improved;
 };
 
 class TrajectoryEvaluator {
