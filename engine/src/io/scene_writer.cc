@@ -106,6 +106,9 @@ std::string PathText(const PrescribedPath& path) {
 }
 
 void AddOptional(const ClothObject& object, Members* members) {
+  if (object.rest_length.size() > 0) {
+    members->Add("springRestLength", Array(object.rest_length));
+  }
   if (!object.spring_group.empty()) {
     members->Add("springGroup", Array(object.spring_group));
   }

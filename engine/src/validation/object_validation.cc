@@ -66,6 +66,10 @@ class ObjectChecker {
     }
     report_.RequireSize(Path("springStiffness"), object_.stiffness.size(), num_springs,
                         per_spring);
+    if (object_.rest_length.size() > 0) {
+      report_.RequireSize(Path("springRestLength"), object_.rest_length.size(),
+                          num_springs, per_spring);
+    }
     if (!object_.vertex_group.empty()) {
       report_.RequireSize(Path("vertexGroup"), object_.vertex_group.size(), n,
                           per_vertex);
@@ -143,6 +147,12 @@ class ObjectChecker {
         report_.Fail(At(Path("springStiffness"), s), NumberText(stiffness),
                      "a finite stiffness >= 0 N/m");
       }
+    }
+    for (long s = 0; s < object_.rest_length.size(); ++s) {
+      const double length = object_.rest_length[s];
+      if (length > kMinSpringLength && std::isfinite(length)) continue;
+      report_.Fail(At(Path("springRestLength"), s), NumberText(length),
+                   "a finite length > 1e-9 m");
     }
     CheckGroups("springGroup", object_.spring_group);
     CheckGroups("vertexGroup", object_.vertex_group);
