@@ -72,7 +72,7 @@ struct UncertaintyInput {
 struct UncertaintyOptions {
   // Singular values below this, relative to the largest, are rounding errors of the
   // Jacobian.
-  double rank_tolerance = 1e-11;
+  double rank_tolerance = 1e-12;
   double weak_threshold = 1.0;  // standard deviation in natural units
   // A decomposition takes some 25 n^3 operations and 10 n^2 numbers; with more
   // parameters none is made and a sentence says so.
