@@ -14,6 +14,11 @@ Scene WithoutEstimatedValues(const Scene& scene) {
   const ParameterLayout layout(scene);
   Eigen::VectorXd neutral = Eigen::VectorXd::Zero(layout.size());
   for (const ParameterBlock& block : layout.blocks()) {
+    if (block.kind == ParameterKind::kInitialPosition) {
+      // There is no neutral shape: where the motion starts to be looked for.
+      neutral.segment(block.offset, block.size) =
+          layout.Extract(scene).segment(block.offset, block.size);
+    }
     if (!ParameterKindIsPositive(block.kind)) continue;
     neutral.segment(block.offset, block.size).setOnes();
   }

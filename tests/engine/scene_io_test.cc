@@ -57,6 +57,7 @@ void ExpectSameObject(const ClothObject& a, const ClothObject& b) {
   EXPECT_EQ(a.estimate_damping, b.estimate_damping);
   EXPECT_EQ(a.estimate_drag, b.estimate_drag);
   EXPECT_EQ(a.estimate_initial_velocity, b.estimate_initial_velocity);
+  EXPECT_EQ(a.estimate_initial_position, b.estimate_initial_position);
 }
 
 void ExpectSameCollider(const Collider& a, const Collider& b) {
@@ -122,7 +123,7 @@ Scene SceneWithEverything() {
   object.mass_mode = ParameterMode::kGroup;
   object.stiffness_mode = ParameterMode::kGlobal;
   object.estimate_damping = object.estimate_drag = true;
-  object.estimate_initial_velocity = true;
+  object.estimate_initial_velocity = object.estimate_initial_position = true;
   for (int v = 0; v < object.num_vertices(); ++v) object.vertex_group.push_back(v % 3);
   for (int s = 0; s < object.num_springs(); ++s) object.spring_group.push_back(s % 4);
   object.prescribed_paths.push_back({0, Eigen::Matrix3Xd::Constant(3, 2, 0.7)});

@@ -143,6 +143,9 @@ TEST(SceneValidation, RefusesWrongSpringsAndTriangles) {
       {"rest length inf",
        [](Scene* s) { Cloth(s).rest_length = Eigen::Vector2d(kInfinity, 1.0); },
        "objects[0].springRestLength[0]", "inf", "finite"},
+      {"initial positions without rest lengths",
+       [](Scene* s) { Cloth(s).estimate_initial_position = true; },
+       "objects[0].estimate.initialPosition", "true", "springRestLength"},
       {"triangle index",
        [](Scene* s) {
          Cloth(s).triangles[0] = {0, 1, 7};

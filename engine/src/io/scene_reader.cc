@@ -206,7 +206,9 @@ class SceneReader {
       ReadIfGiven(*estimate, "damping", &object->estimate_damping);
       ReadIfGiven(*estimate, "dragCoefficient", &object->estimate_drag);
       ReadIfGiven(*estimate, "initialVelocity", &object->estimate_initial_velocity);
-      estimate->WarnOfUnknownKeys({"damping", "dragCoefficient", "initialVelocity"});
+      ReadIfGiven(*estimate, "initialPosition", &object->estimate_initial_position);
+      estimate->WarnOfUnknownKeys(
+          {"damping", "dragCoefficient", "initialVelocity", "initialPosition"});
     }
   }
 

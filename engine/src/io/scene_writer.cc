@@ -124,7 +124,8 @@ void AddOptional(const ClothObject& object, Members* members) {
   const std::string estimate =
       FlagsText({{"damping", object.estimate_damping},
                  {"dragCoefficient", object.estimate_drag},
-                 {"initialVelocity", object.estimate_initial_velocity}});
+                 {"initialVelocity", object.estimate_initial_velocity},
+                 {"initialPosition", object.estimate_initial_position}});
   if (!estimate.empty()) members->Add("estimate", estimate);
   if (!IsPlusZero(object.velocities)) {
     members->Add("vertVel", VectorArray(object.velocities));

@@ -34,6 +34,7 @@ class ObjectChecker {
     CheckIndices("triangles", object_.triangles);
     CheckTriangles();
     CheckScalars();
+    CheckInitialPosition();
     CheckPaths();
     WarnOfDuplicateSprings();
     WarnOfLooseVertices();
@@ -186,6 +187,18 @@ class ObjectChecker {
                                "a finite number >= 0 (1/s)");
     report_.RequireNotNegative(Path("dragCoefficient"), object_.drag_coefficient,
                                "a finite number >= 0");
+  }
+
+  // Else the springs' rest lengths would change with what is estimated.
+  void CheckInitialPosition() const {
+    if (!object_.estimate_initial_position || object_.springs.empty() ||
+        object_.rest_length.size() > 0) {
+      return;
+    }
+    report_.Fail(
+        Path("estimate.initialPosition"), "true",
+        "springRestLength beside it: vertPos cannot be estimated and say where "
+        "springs are at rest");
   }
 
   void CheckPaths() const {

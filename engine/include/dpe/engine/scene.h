@@ -83,6 +83,7 @@ struct ClothObject {
   bool estimate_damping = false;
   bool estimate_drag = false;
   bool estimate_initial_velocity = false;
+  bool estimate_initial_position = false;  // needs rest_length: no parameter moves it
 
   int num_vertices() const { return static_cast<int>(is_fixed.size()); }
   int num_springs() const { return static_cast<int>(springs.size()); }
