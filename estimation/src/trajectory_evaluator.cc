@@ -175,6 +175,7 @@ bool TrajectoryEvaluator::Evaluate(const Eigen::VectorXd& coordinates) {
   if (cost() < best_cost_) {
     best_cost_ = cost();
     best_coordinates_ = coordinates_;
+    if (options_.improved) options_.improved();
   }
   return true;
 }

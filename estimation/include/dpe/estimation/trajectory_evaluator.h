@@ -39,6 +39,8 @@ struct TrajectoryEvaluatorOptions {
   // Polled once per step, by several threads; true makes the evaluation in progress
   // fail.
   std::function<bool()> interrupted;
+  // Called after every evaluation whose cost is the least so far.
+  std::function<void()> improved;
 };
 
 class SegmentRollout;
