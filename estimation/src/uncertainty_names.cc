@@ -35,6 +35,8 @@ std::string GroupName(const ClothObject& object, const ParameterBlock& block,
   const bool has_kinds =
       block.kind == ParameterKind::kStiffness && !object.spring_kind.empty();
   for (size_t e = 0; e < block.element_to_local.size(); ++e) {
+    // Springs between fixed vertices are in no group.
+    if (block.element_to_local[e] < 0) continue;
     const bool belongs = block.element_to_local[e] == local;
     if (belongs) group = groups[e];
     if (has_kinds) (belongs ? inside : outside).insert(object.spring_kind[e]);

@@ -72,6 +72,17 @@ TEST(UncertaintySceneTest, TheScaleOfMassAndStiffnessIsFoundAndNamed) {
   }
 }
 
+TEST(UncertaintySceneTest, GroupsOfOneKindOfSpringAreNamedByIt) {
+  const Scene scene = SideWithoutDrag("nR");
+  const Uncertainty result = OwnUncertainty(scene, test::OwnMotion(scene, kFrames));
+  EXPECT_THAT(result.names, ::testing::ElementsAre("the stretch stiffness of object 0",
+                                                   "the shear stiffness of object 0",
+                                                   "the bend stiffness of object 0"));
+  EXPECT_THAT(UncertaintyLines(result)[2],
+              ::testing::MatchesRegex("the bend stiffness of object 0: .* \\+- .* N/m "
+                                      "\\(.* %\\)"));
+}
+
 TEST(UncertaintySceneTest, DampingDoesNotFixTheScaleAndIsDetermined) {
   Scene scene = SideWithoutDrag("GG");
   scene.objects[0].estimate_damping = scene.objects[0].estimate_drag = true;
