@@ -142,9 +142,8 @@ class StatementMaker {
 
   std::string Threshold(const BlockUncertainty& block) const {
     const double threshold = options_.weak_threshold;
-    if (!std::isnan(block.relative[0])) return Spread(true, threshold, 1.0);
-    return Spread(false, threshold,
-                  std::max(1.0, block.values.lpNorm<Eigen::Infinity>()));
+    if (!std::isnan(block.relative[0])) return RelativeSpread(threshold);
+    return Short(threshold * block.natural_unit) + " " + block.unit;
   }
 
   // Of more than a single parameter.
@@ -204,12 +203,14 @@ std::string Spreads(const BlockUncertainty& block) {
     if (std::isfinite(value)) finite.push_back(value);
   }
   std::sort(finite.begin(), finite.end());
+  const auto spread = [&](double value) {
+    return is_log ? RelativeSpread(value) : Short(value) + " " + block.unit;
+  };
   const size_t num_rest = block.values.size() - finite.size();
   std::string text;
   if (!finite.empty()) {
-    text = "standard deviation min " + Spread(is_log, finite.front(), 1.0) +
-           ", median " + Spread(is_log, finite[finite.size() / 2], 1.0) + ", max " +
-           Spread(is_log, finite.back(), 1.0);
+    text = "standard deviation min " + spread(finite.front()) + ", median " +
+           spread(finite[finite.size() / 2]) + ", max " + spread(finite.back());
   }
   if (num_rest == 0) return text;
   return text + (finite.empty() ? "" : "; ") + std::to_string(num_rest) +

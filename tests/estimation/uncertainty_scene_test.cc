@@ -157,6 +157,23 @@ TEST(UncertaintySceneTest, ASpringThatNoObservedVertexFeelsIsNamed) {
   }
 }
 
+TEST(UncertaintySceneTest, InitialStatesAreInMetresAndMetresPerSecond) {
+  Scene scene = test::MakeDerivativeScene("two_objects", 4);
+  ApplySettings("nn,nG", &scene);
+  ClothObject& cloth = scene.objects[1];
+  cloth.rest_length = RestLengths(cloth);
+  cloth.estimate_initial_velocity = cloth.estimate_initial_position = true;
+  const Observations all = test::OwnMotion(scene, kFrames);
+  const Uncertainty seen = OwnUncertainty(scene, all);
+  ASSERT_EQ(seen.blocks.size(), 3u);
+  EXPECT_EQ(seen.blocks[2].kind, "initial position");
+  EXPECT_EQ(seen.blocks[2].unit, "m");
+  EXPECT_THAT(seen.names.back(), HasSubstr("the initial position along z of vertex "));
+  EXPECT_TRUE(std::isnan(seen.blocks[2].relative[0]));
+  EXPECT_LT(seen.blocks[2].standard_deviations.maxCoeff(), 0.5);
+  EXPECT_NEAR(seen.blocks[2].natural_unit, 0.25 * 7.0, 1e-12);  // half of 3.5 m
+}
+
 TEST(UncertaintySceneTest, TwoObjectsAreNamedApart) {
   Scene scene = test::MakeDerivativeScene("two_objects", 4);
   for (ClothObject& object : scene.objects) object.drag_coefficient = 0.0;
