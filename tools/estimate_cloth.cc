@@ -87,8 +87,8 @@ DEFINE_double(init_perturbation, 0.0,
 DEFINE_string(
     horizon, "auto",
     "full: fit all frames at once; grow: fit the first few, then more and "
-    "more, each from the one before; auto: grow from --init=uniform and scene "
-    "with more than 3 parameters, else full.");
+    "more, each from the one before; auto: grow for more than 3 parameters and "
+    "lm, unless inverse dynamics gave the start; else full.");
 DEFINE_double(sigma, 0.0,
               "Standard deviation (m) of the noise on each observed coordinate, for "
               "observations that name none of their own; 0: --noise_sigma.");

@@ -105,14 +105,13 @@ class Fit {
     start_.message = evaluator()->message();
   }
 
-  // A start from inverse dynamics or the screen has seen the motion; a handful of
-  // parameters is checked against trial values afterwards.
+  // A start from inverse dynamics has seen the whole motion; a handful of parameters is
+  // checked against trial values afterwards.
   bool ShouldGrow() {
     if (options_.horizon != Horizon::kAuto) {
       return options_.horizon == Horizon::kGrow;
     }
-    return use_lm_ && !HasFewParameters() &&
-           (start_.init == "uniform" || start_.init == "scene");
+    return use_lm_ && !HasFewParameters() && start_.init != "inverse_dynamics";
   }
 
   void Grow() {

@@ -32,7 +32,7 @@ enum class InitMethod {
 
 // Over which frames the optimiser works its way to all of them.
 enum class Horizon {
-  kAuto,  // grow with LM from a start that has not seen the motion, else full
+  kAuto,  // grow with LM, unless inverse dynamics gave the start, else full
   kFull,  // all at once
   kGrow,  // the first few frames, then more and more, each from the one before
 };
