@@ -40,11 +40,7 @@ double LongestColumn(TrajectoryProblem* problem) {
   if (!evaluator->Evaluate(problem->coordinates()) || !evaluator->EvaluateJacobian()) {
     return 0.0;
   }
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(evaluator->num_parameters());
-  for (int s = 0; s < evaluator->num_segments(); ++s) {
-    evaluator->joint_layout().ScatterAdd(
-        evaluator->jacobian(s).colwise().squaredNorm().transpose(), s, &squares);
-  }
+  const Eigen::VectorXd squares = evaluator->JacobianColumnSquares();
   double longest = 0.0;
   for (int i = 0; i < squares.size(); ++i) {
     if (evaluator->map().is_log(i)) longest = std::max(longest, squares[i]);
@@ -89,6 +85,7 @@ int Minimise(const MultipleShootingOptions& options, int max_iterations,
   } else {
     solver.min_lm_diagonal =
         std::max(1e-24, kShortColumn * kShortColumn * LongestColumn(problem));
+    solver.max_lm_diagonal = std::max(solver.max_lm_diagonal, solver.min_lm_diagonal);
     solver.jacobi_scaling = false;  // lengths of columns are to stay
   }
   solver.function_tolerance = tolerance;
@@ -154,8 +151,45 @@ class Shooting {
     if (ParameterLayout(scene_).size() == 0) {
       throw SceneError("multiple shooting: nothing is estimated");
     }
+    const Trajectory rollout = RollOut(start);
+    summary_.window_frames = options_.window_frames;
+    CutAndStart(start, rollout);
+    while (summary_.window_frames > 1 && !IsInterrupted(options_) &&
+           !WindowsAreUsable()) {
+      summary_.window_frames /= 2;
+      CutAndStart(start, rollout);
+    }
+  }
+
+  // Jumps longer than the cloth are those of a simulation that is about to blow up:
+  // its derivatives say nothing.
+  bool WindowsAreUsable() {
+    SetWeights(options_.first_weight);
+    if (!windows_problem_->evaluator()->Evaluate(windows_problem_->coordinates())) {
+      return false;
+    }
+    MultipleShootingStage stage;
+    MeasureJumps(options_.first_weight, &stage);
+    double extent = 0.0;
+    for (const ClothObject& cloth : scene_.objects) {
+      const Eigen::Map<const Eigen::Matrix3Xd> points(cloth.positions.data(), 3,
+                                                      cloth.num_vertices());
+      extent = std::max(
+          extent, (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm());
+    }
+    return stage.largest_jump <= extent;
+  }
+
+  void SetWeights(double weight) {
+    TrajectoryEvaluator* evaluator = windows_problem_->evaluator();
+    for (int k = 0; k < evaluator->num_links(); ++k) {
+      evaluator->SetLinkWeights(k, weight, weight * time_scale_);
+    }
+  }
+
+  void CutAndStart(const Eigen::VectorXd& start, const Trajectory& rollout) {
     const std::vector<ShootingWindow> windows = CutIntoWindows(
-        scene_, observations_, RollOut(start), num_frames_, options_.window_frames);
+        scene_, observations_, rollout, num_frames_, summary_.window_frames);
     std::vector<TrajectorySegment> segments;
     std::vector<const Scene*> scenes;
     size_t num_costs = 0;
@@ -182,9 +216,7 @@ class Shooting {
     TrajectoryEvaluator* evaluator = windows_problem_->evaluator();
     double weight = options_.first_weight;
     for (int stage = 0; stage < options_.max_stages && !summary_.joined; ++stage) {
-      for (int k = 0; k < evaluator->num_links(); ++k) {
-        evaluator->SetLinkWeights(k, weight, weight * time_scale_);
-      }
+      SetWeights(weight);
       MultipleShootingStage report;
       report.weight = weight;
       if (!evaluator->Evaluate(windows_problem_->coordinates())) {

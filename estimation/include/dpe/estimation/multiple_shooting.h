@@ -18,11 +18,13 @@
 // Over a short window states depend mildly on the parameters, however wrong these are,
 // and observations in the middle of the motion speak where they were made; over the
 // whole of it, errors grow from frame to frame, and the cost becomes a landscape of
-// many valleys. (Bock, Recent advances in parameter identification techniques for
-// O.D.E., 1983; Voss, Timmer & Kurths, Nonlinear dynamical system identification from
-// uncertain and indirect measurements, Int. J. Bifurcation and Chaos 14, 2004. Links as
-// residuals of growing weight: a penalty method, Nocedal & Wright, Numerical
-// optimization, 17.1.)
+// many valleys. Growing the horizon from the first frames on gets around these too, and
+// for much less work: a window's state is six unknowns per vertex. It needs those
+// frames, though: where they were not observed, this way is open. (Bock, Recent
+// advances in parameter identification techniques for O.D.E., 1983; Voss, Timmer &
+// Kurths, Nonlinear dynamical system identification from uncertain and indirect
+// measurements, Int. J. Bifurcation and Chaos 14, 2004. Links as residuals of growing
+// weight: a penalty method, Nocedal & Wright, Numerical optimization, section 17.1.)
 #ifndef DPE_ESTIMATION_MULTIPLE_SHOOTING_H_
 #define DPE_ESTIMATION_MULTIPLE_SHOOTING_H_
 
@@ -38,7 +40,9 @@
 namespace dpe {
 
 struct MultipleShootingOptions {
-  int window_frames = 10;   // frame lengths in a window
+  // Frame lengths in a window; halved as long as a window cannot be simulated from the
+  // start, or ends farther from the next one than the cloth is long.
+  int window_frames = 10;
   double time_scale = 0.0;  // s; <= 0: the length of a frame
 
   // mu of the first stage, per metre if residuals are numbers, and the factor of each
@@ -84,6 +88,7 @@ struct MultipleShootingSummary {
   std::string message;         // one sentence: how it ended
   Eigen::VectorXd parameters;  // ParameterLayout(scene)'s order, SI units
   int num_windows = 0;
+  int window_frames = 0;  // that were used
   std::vector<MultipleShootingStage> stages;
   double joined_cost = 0.0;  // of a single rollout after the last stage
   int polish_iterations = 0;
