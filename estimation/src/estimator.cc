@@ -36,7 +36,6 @@ class Fit {
     context_.options = &options_;
     context_.stop = &stop_;
     summary_.num_frames = fit_.num_frames();
-    summary_.initial_cost = std::numeric_limits<double>::quiet_NaN();
   }
 
   EstimatorSummary Run() {
@@ -71,10 +70,6 @@ class Fit {
     start_ =
         FindStartingPoint(scene_, fit_.observations(), options_, &stop_, evaluator());
     TryStart();
-    if (start_.ok) {
-      summary_.initial_cost = evaluator()->cost();
-      summary_.initial_rms = fit_.best_rms();
-    }
     if (ShouldGrow()) Grow();
     if (!start_.ok && HasFewParameters() && start_.init != "screen" &&
         !stop_.stopped()) {
@@ -85,10 +80,6 @@ class Fit {
       TryStart();
     }
     if (!start_.ok) return false;
-    if (!std::isfinite(summary_.initial_cost)) {
-      summary_.initial_cost = evaluator()->cost();
-      summary_.initial_rms = fit_.best_rms();
-    }
     summary_.jacobian = use_lm_ ? evaluator()->JacobianMethodName() : "gradient";
     return true;
   }
@@ -103,6 +94,12 @@ class Fit {
     problem()->set_coordinates(start_.coordinates);
     start_.ok = evaluator()->Evaluate(start_.coordinates);
     start_.message = evaluator()->message();
+    if (start_.ok) RecordStart();
+  }
+
+  void RecordStart() {
+    summary_.initial_cost = evaluator()->cost();
+    summary_.initial_rms = fit_.best_rms();
   }
 
   // A start from inverse dynamics has seen the whole motion; a handful of parameters is
@@ -123,15 +120,17 @@ class Fit {
     summary_.jacobian_evaluations += grown.num_derivative_passes;
     context_.first_iteration = context_.num_iterations;
     if (!grown.ok) return;
-    // What grew from a start that can be simulated has to be better than it.
-    problem()->set_coordinates(grown.coordinates);
-    const bool start_was_ok = start_.ok;
-    start_.ok = evaluator()->Evaluate(grown.coordinates) || start_was_ok;
-    if (start_was_ok) {
-      problem()->set_coordinates(evaluator()->best_coordinates());
-      evaluator()->Evaluate(evaluator()->best_coordinates());
+    const bool is_grown_ok = evaluator()->Evaluate(grown.coordinates);
+    if (!start_.ok) {
+      start_.ok = is_grown_ok;
+      start_.message = evaluator()->message();
+      if (is_grown_ok) RecordStart();
     }
-    start_.message = evaluator()->message();
+    if (!start_.ok) return;
+    // What grew from a start that can be simulated has to be better than it.
+    const Eigen::VectorXd best = evaluator()->best_coordinates();
+    problem()->set_coordinates(best);
+    evaluator()->Evaluate(best);
   }
 
   void PerturbStart() {
@@ -193,8 +192,7 @@ class Fit {
   }
 
   void Minimise() {
-    const OptimizerResult result =
-        use_lm_ ? MinimizeByLevenbergMarquardt(&context_) : MinimizeByLbfgs(&context_);
+    const OptimizerResult result = Minimize(use_lm_, &context_);
     summary_.termination = result.termination;
     summary_.message = result.message;
   }

@@ -41,10 +41,14 @@ bool FitProblem::IsAtRounding() const {
   return problem_->evaluator()->best_cost() <= converged_cost_;
 }
 
+double JacobianBytes(const TrajectoryEvaluator& evaluator) {
+  return 8.0 * evaluator.num_residuals() *
+         static_cast<double>(evaluator.num_parameters());
+}
+
 SolverChoice ChooseSolver(const TrajectoryEvaluator& evaluator,
                           const EstimatorOptions& options) {
-  const double bytes =
-      8.0 * evaluator.num_residuals() * static_cast<double>(evaluator.num_parameters());
+  const double bytes = JacobianBytes(evaluator);
   const bool fits = bytes <= options.max_lm_jacobian_bytes;
   if (options.solver != SolverType::kAuto) {
     return {options.solver == SolverType::kLevenbergMarquardt, "asked for"};

@@ -47,6 +47,9 @@ class FitProblem {
   std::unique_ptr<TrajectoryProblem> problem_;
 };
 
+// What the Jacobian takes in memory as one dense matrix.
+double JacobianBytes(const TrajectoryEvaluator& evaluator);
+
 struct SolverChoice {
   bool is_lm = true;
   std::string reason;

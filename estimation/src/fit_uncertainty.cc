@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
+#include <vector>
 
+#include "fit_problem.h"
 #include "tall_qr.h"
 
 namespace dpe {
@@ -48,7 +49,7 @@ bool WantsUncertainty(const EstimatorOptions& options, int num_parameters,
 Uncertainty UncertaintyOfFit(const Scene& scene, bool noise_is_known,
                              const EstimatorOptions& options,
                              TrajectoryEvaluator* evaluator) {
-  const double bytes = 8.0 * evaluator->num_residuals() * evaluator->num_parameters();
+  const double bytes = JacobianBytes(*evaluator);
   if (bytes > options.max_lm_jacobian_bytes) {
     return NotComputed("its Jacobian would take " + std::to_string(bytes / 1e6) +
                        " MB, above the limit of " +

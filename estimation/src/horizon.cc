@@ -77,11 +77,7 @@ class HorizonGrower {
     stage_context_.fit = fit;
     stage_context_.num_iterations = context_->num_iterations;
     stage_context_.first_iteration = context_->num_iterations;
-    if (ChooseSolver(*fit->evaluator(), options_).is_lm) {
-      MinimizeByLevenbergMarquardt(&stage_context_);
-    } else {
-      MinimizeByLbfgs(&stage_context_);
-    }
+    Minimize(ChooseSolver(*fit->evaluator(), options_).is_lm, &stage_context_);
     context_->num_iterations = stage_context_.num_iterations;
   }
 

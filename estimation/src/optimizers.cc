@@ -99,27 +99,16 @@ int MaxIterations(const OptimizerContext& context, int default_value) {
 void SetUniformDamping(TrajectoryProblem* problem, ceres::Solver::Options* solver) {
   TrajectoryEvaluator* evaluator = problem->evaluator();
   if (!evaluator->EvaluateJacobian()) return;
+  const Eigen::VectorXd squares = evaluator->JacobianColumnSquares();
   double largest = 0.0;
   for (const ParameterBlock& block : evaluator->layout().blocks()) {
     if (block.mode != ParameterMode::kLocal) continue;
-    for (int j = block.offset; j < block.offset + block.size; ++j) {
-      largest = std::max(largest, evaluator->jacobian().col(j).squaredNorm());
-    }
+    largest = std::max(largest, squares.segment(block.offset, block.size).maxCoeff());
   }
   if (!(largest > 0.0) || !std::isfinite(largest)) return;
   solver->jacobi_scaling = false;
   solver->min_lm_diagonal = largest;
   solver->max_lm_diagonal = largest;
-}
-
-}  // namespace
-
-void OptimizerContext::Report(IterationReport report) const {
-  if (!options->progress) return;
-  report.rms = fit->best_rms();
-  report.num_frames = fit->num_frames();
-  report.seconds = stop->Seconds();
-  options->progress(report);
 }
 
 OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
@@ -187,6 +176,20 @@ OptimizerResult MinimizeByLbfgs(OptimizerContext* context) {
       return result;
     }
   }
+}
+
+}  // namespace
+
+void OptimizerContext::Report(IterationReport report) const {
+  if (!options->progress) return;
+  report.rms = fit->best_rms();
+  report.num_frames = fit->num_frames();
+  report.seconds = stop->Seconds();
+  options->progress(report);
+}
+
+OptimizerResult Minimize(bool use_lm, OptimizerContext* context) {
+  return use_lm ? MinimizeByLevenbergMarquardt(context) : MinimizeByLbfgs(context);
 }
 
 }  // namespace dpe

@@ -29,10 +29,10 @@ struct OptimizerResult {
   std::string message;
 };
 
-// Both start at problem()->coordinates() and leave the best point there; the start must
-// have been evaluated successfully.
-OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context);
-OptimizerResult MinimizeByLbfgs(OptimizerContext* context);
+// Starts at problem()->coordinates(), which must have been evaluated successfully, and
+// leaves the best point there.
+// @param use_lm  Levenberg-Marquardt, else L-BFGS
+OptimizerResult Minimize(bool use_lm, OptimizerContext* context);
 
 }  // namespace dpe
 

@@ -242,7 +242,10 @@ RowMajorMatrix TrajectoryEvaluator::DenseJacobian() const {
 Eigen::VectorXd TrajectoryEvaluator::JacobianColumnSquares() const {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(num_parameters());
   for (int s = 0; s < num_segments(); ++s) {
-    joint_->ScatterAdd(jacobian(s).colwise().squaredNorm().transpose(), s, &squares);
+    const RowMajorMatrix& part = jacobian(s);
+    Eigen::VectorXd own = Eigen::VectorXd::Zero(part.cols());
+    for (int row = 0; row < part.rows(); ++row) own += part.row(row).cwiseAbs2();
+    joint_->ScatterAdd(own, s, &squares);
   }
   return squares;
 }
