@@ -1,16 +1,15 @@
 #include "fit_setup.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "dpe/engine/parameters.h"
 #include "frame_interpolation.h"
+#include "moved_observations.h"
 
 namespace dpe {
+
 Scene WithoutEstimatedValues(const Scene& scene) {
   const ParameterLayout layout(scene);
   Eigen::VectorXd neutral = Eigen::VectorXd::Zero(layout.size());
@@ -71,40 +70,20 @@ Observations FirstFrames(const Observations& observations, int num_frames) {
   return first;
 }
 
-namespace {
-
-// Calls `see` with the noise of every observation of an estimated object.
-template <typename See>
-void ForEachSigma(const Scene& scene, const Observations& observations, See see) {
-  const std::vector<char> is_estimated = ParameterLayout::EstimatedObjects(scene);
-  for (int object = 0; object < static_cast<int>(observations.positions.size());
-       ++object) {
-    if (is_estimated[object] == 0) continue;
-    for (int f = 0; f < observations.positions[object].cols(); ++f) {
-      for (int v = 0; v < scene.objects[object].num_vertices(); ++v) {
-        if (observations.IsObserved(object, v, f)) {
-          see(observations.Sigma(object, v, f));
-        }
-      }
-    }
-  }
-  for (const MarkerSample& sample : observations.samples) {
-    see(observations.Sigma(sample));
-  }
-}
-
-}  // namespace
-
 bool NoiseIsKnown(const Scene& scene, const Observations& observations) {
   bool is_known = false;
-  ForEachSigma(scene, observations, [&](double sigma) { is_known |= sigma > 0.0; });
+  ForEachSigma(
+      scene, observations, observations.num_frames(),
+      [&](double sigma, bool is_moved) { is_known |= is_moved && sigma > 0.0; });
   return is_known;
 }
 
 double CostOfRms(const Scene& scene, const Observations& observations, double rms) {
   double sum = 0.0;  // of squared weights
-  ForEachSigma(scene, observations,
-               [&](double sigma) { sum += sigma > 0.0 ? 1.0 / (sigma * sigma) : 1.0; });
+  ForEachSigma(scene, observations, observations.num_frames(),
+               [&](double sigma, bool /*is_moved*/) {
+                 sum += sigma > 0.0 ? 1.0 / (sigma * sigma) : 1.0;
+               });
   return 0.5 * rms * rms * sum;
 }
 

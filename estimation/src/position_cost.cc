@@ -6,6 +6,7 @@
 #include "dpe/engine/parameters.h"
 #include "dpe/estimation/trajectory_cost.h"
 #include "frame_interpolation.h"
+#include "moved_observations.h"
 
 namespace dpe {
 namespace {
@@ -88,24 +89,6 @@ RobustLoss LossOf(const PositionCostOptions& options) {
                                       : RobustLoss::DefaultScale(options.loss));
 }
 
-// For each marker whether any parameter moves it.
-std::vector<char> MovedMarkers(const Scene& scene, const Observations& observations) {
-  if (observations.markers.empty()) return {};
-  const std::vector<char> is_estimated = ParameterLayout::EstimatedObjects(scene);
-  std::vector<char> is_moved;
-  for (const Marker& marker : observations.markers) {
-    is_moved.push_back(0);
-    if (!is_estimated[marker.object]) continue;
-    for (size_t i = 0; i < marker.vertices.size(); ++i) {
-      if (marker.weights[i] != 0.0 &&
-          !scene.objects[marker.object].is_fixed[marker.vertices[i]]) {
-        is_moved.back() = 1;
-      }
-    }
-  }
-  return is_moved;
-}
-
 // The derivative of robust residuals: each three rows of `rows` times their block.
 SparseRows Bend(const std::vector<Eigen::Matrix3d>& bends, int first_row,
                 const SparseRows& rows) {
@@ -124,44 +107,35 @@ SparseRows Bend(const std::vector<Eigen::Matrix3d>& bends, int first_row,
 }
 
 // Throws unless the noise of all observations is known, or that of none.
-class NoiseCheck {
- public:
-  void See(double sigma) {
-    (sigma > 0.0 ? num_known_ : num_unknown_) += 1;
-    if (num_known_ > 0 && num_unknown_ > 0) {
-      throw SceneError(
-          "the noise (sigma) of some observations is given and that of others is not; "
-          "accepted are all or none (a common sigma fills what is missing)");
-    }
-  }
-
- private:
-  long num_known_ = 0;
-  long num_unknown_ = 0;
-};
-
 void CheckNoise(const Scene& scene, const Observations& observations, int num_frames) {
-  NoiseCheck check;
-  const std::vector<char> is_estimated = ParameterLayout::EstimatedObjects(scene);
-  for (int object = 0; object < static_cast<int>(observations.positions.size());
-       ++object) {
-    const int frames = std::min<int>(num_frames, observations.positions[object].cols());
-    if (is_estimated[object] == 0) continue;
-    for (int frame = 1; frame < frames; ++frame) {
-      for (int v = 0; v < scene.objects[object].num_vertices(); ++v) {
-        if (!scene.objects[object].is_fixed[v] &&
-            observations.IsObserved(object, v, frame)) {
-          check.See(observations.Sigma(object, v, frame));
-        }
-      }
-    }
+  long num_known = 0, num_unknown = 0;
+  ForEachSigma(scene, observations, num_frames, [&](double sigma, bool is_moved) {
+    if (is_moved) (sigma > 0.0 ? num_known : num_unknown) += 1;
+  });
+  if (num_known > 0 && num_unknown > 0) {
+    throw SceneError(
+        "the noise (sigma) of some observations is given and that of others is not; "
+        "accepted are all or none (a common sigma fills what is missing)");
   }
+}
+
+// The samples that are residuals of a fit to `num_frames` frames, in their order, by
+// the frame that they are at or after.
+std::vector<std::vector<const MarkerSample*>> SamplesByFrame(
+    const Scene& scene, const Observations& observations, int num_frames) {
+  std::vector<std::vector<const MarkerSample*>> by_frame(num_frames);
   const std::vector<char> is_moved = MovedMarkers(scene, observations);
   for (const MarkerSample& sample : observations.samples) {
-    if (is_moved[sample.marker] != 0) {
-      check.See(observations.Sigma(sample));
+    if (is_moved[sample.marker] == 0 || !IsWithinFrames(sample.time, num_frames)) {
+      continue;
     }
+    const FrameWeights frames = InterpolateFrames(sample.time, num_frames);
+    const bool is_at_frame = frames.count == 1;
+    if (is_at_frame && frames.first == 0) continue;  // given
+    by_frame[is_at_frame ? frames.first : static_cast<int>(sample.time)].push_back(
+        &sample);
   }
+  return by_frame;
 }
 
 }  // namespace
@@ -195,20 +169,15 @@ std::unique_ptr<PositionCost> PositionCost::Create(const Scene& scene,
 }
 
 std::unique_ptr<PositionCost> PositionCost::CreateFromSamples(
-    const Scene& scene, const Observations& observations, int frame, int num_frames,
+    const Scene& scene, const Observations& observations,
+    const std::vector<const MarkerSample*>& samples, int num_frames,
     const PositionCostOptions& options) {
-  if (observations.samples.empty()) return nullptr;
+  if (samples.empty()) return nullptr;
   RowBuilder rows(scene);
-  const std::vector<char> is_moved = MovedMarkers(scene, observations);
-  for (const MarkerSample& sample : observations.samples) {
-    if (!IsWithinFrames(sample.time, num_frames)) continue;
-    const FrameWeights frames = InterpolateFrames(sample.time, num_frames);
-    const int own_frame =
-        frames.count == 1 ? frames.first : static_cast<int>(std::floor(sample.time));
-    const Marker& marker = observations.markers[sample.marker];
-    const bool is_given = frames.count == 1 && frames.first == 0;
-    if (own_frame != frame || is_given || is_moved[sample.marker] == 0) continue;
-    rows.Begin(sample.position, observations.Sigma(sample));
+  for (const MarkerSample* sample : samples) {
+    const FrameWeights frames = InterpolateFrames(sample->time, num_frames);
+    const Marker& marker = observations.markers[sample->marker];
+    rows.Begin(sample->position, observations.Sigma(*sample));
     for (int k = 0; k < frames.count; ++k) {
       for (size_t i = 0; i < marker.vertices.size(); ++i) {
         const double weight = frames.weights[k] * marker.weights[i];
@@ -217,7 +186,6 @@ std::unique_ptr<PositionCost> PositionCost::CreateFromSamples(
       }
     }
   }
-  if (rows.empty()) return nullptr;
   return std::unique_ptr<PositionCost>(
       new PositionCost(rows.target(), rows.terms(), LossOf(options)));
 }
@@ -249,13 +217,14 @@ bool PositionCost::Evaluate(const Trajectory& trajectory, double* residuals,
 TrajectoryCosts MakePositionCosts(const Scene& scene, const Observations& observations,
                                   int num_frames, const PositionCostOptions& options) {
   CheckNoise(scene, observations, num_frames);
+  const auto samples = SamplesByFrame(scene, observations, num_frames);
   TrajectoryCosts costs;
   for (int frame = 0; frame < num_frames; ++frame) {
     std::unique_ptr<PositionCost> cost =
         frame > 0 ? PositionCost::Create(scene, observations, frame, options) : nullptr;
     if (cost != nullptr) costs.push_back(std::move(cost));
-    cost = PositionCost::CreateFromSamples(scene, observations, frame, num_frames,
-                                           options);
+    cost = PositionCost::CreateFromSamples(scene, observations, samples[frame],
+                                           num_frames, options);
     if (cost != nullptr) costs.push_back(std::move(cost));
   }
   return costs;

@@ -79,18 +79,23 @@ class PositionCost : public TrajectoryCost {
                                               int frame,
                                               const PositionCostOptions& options = {});
 
-  // The samples of markers from `frame` until before the next, in their order, by
-  // interpolation within the first `num_frames` frames. Null if there are none.
-  static std::unique_ptr<PositionCost> CreateFromSamples(
-      const Scene& scene, const Observations& observations, int frame, int num_frames,
-      const PositionCostOptions& options = {});
-
   bool Evaluate(const Trajectory& trajectory, double* residuals,
                 std::vector<StateDerivative>* derivatives) const override;
 
  private:
   PositionCost(Eigen::VectorXd target, std::vector<StateDerivative> terms,
                const RobustLoss& loss);
+
+  // Of these samples of markers, interpolated within the first `num_frames` frames.
+  // Null if there are none.
+  static std::unique_ptr<PositionCost> CreateFromSamples(
+      const Scene& scene, const Observations& observations,
+      const std::vector<const MarkerSample*>& samples, int num_frames,
+      const PositionCostOptions& options);
+
+  friend std::vector<std::unique_ptr<TrajectoryCost>> MakePositionCosts(
+      const Scene& scene, const Observations& observations, int num_frames,
+      const PositionCostOptions& options);
 
   Eigen::VectorXd target_;              // in standard deviations (or m)
   std::vector<StateDerivative> terms_;  // residual = sum of d_position x - target
@@ -100,9 +105,8 @@ class PositionCost : public TrajectoryCost {
 // The costs of all frames from 1 to num_frames - 1 in which anything was observed
 // (frame 0 is the given initial state: no parameter moves it).
 //
-// @throws SceneError if the noise is known of some observations and not of others:
-// their
-//         residuals could not be compared
+// @throws SceneError if the noise is known of some observations and not of others,
+//         whose residuals could not be compared
 TrajectoryCosts MakePositionCosts(const Scene& scene, const Observations& observations,
                                   int num_frames,
                                   const PositionCostOptions& options = {});
