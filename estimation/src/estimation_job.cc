@@ -128,7 +128,7 @@ EstimationInput LoadEstimationInput(const EstimationJob& job) {
     throw SceneError("--frames: " + std::to_string(input.num_frames) +
                      "; accepted are 2 or more (frame 0 is the initial state)");
   }
-  input.target = FirstFrames(input.reference, input.num_frames);
+  input.target = CutFrames(input.reference, 0, input.num_frames);
   input.target.sigma = job.sigma > 0.0 ? job.sigma : job.noise_sigma;
   if (job.noise_sigma > 0.0) {
     AddNoise(input.scene, job.noise_sigma, job.noise_seed, &input.target);

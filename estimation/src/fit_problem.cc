@@ -12,7 +12,7 @@ FitProblem::FitProblem(const Scene& blank, const Observations& observations,
                        int num_frames, const EstimatorOptions& options,
                        StopControl* stop)
     : num_frames_(num_frames),
-      observations_(FirstFrames(observations, num_frames)),
+      observations_(CutFrames(observations, 0, num_frames)),
       best_rms_(std::numeric_limits<double>::quiet_NaN()) {
   PositionCostOptions cost_options;
   cost_options.loss = options.loss;

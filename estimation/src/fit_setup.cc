@@ -52,22 +52,27 @@ int NumFramesToFit(const Scene& scene, const Observations& observations,
   return frames;
 }
 
-Observations FirstFrames(const Observations& observations, int num_frames) {
-  Observations first = observations;
-  const auto cut = [num_frames](std::vector<Eigen::MatrixXd>* matrices) {
-    for (Eigen::MatrixXd& m : *matrices) {
-      if (m.cols() > num_frames) m.conservativeResize(Eigen::NoChange, num_frames);
+Observations CutFrames(const Observations& observations, int first, int num_frames) {
+  Observations cut;
+  cut.markers = observations.markers;
+  cut.sigma = observations.sigma;
+  const auto columns = [&](const std::vector<Eigen::MatrixXd>& all,
+                           std::vector<Eigen::MatrixXd>* some) {
+    for (const Eigen::MatrixXd& matrix : all) {
+      const int available = static_cast<int>(matrix.cols()) - first;
+      some->emplace_back();
+      if (available <= 0) continue;
+      some->back() = matrix.middleCols(first, std::min(num_frames, available));
     }
   };
-  cut(&first.positions);
-  cut(&first.sigmas);
-  const auto is_late = [num_frames](const MarkerSample& sample) {
-    return !IsWithinFrames(sample.time, num_frames);
-  };
-  first.samples.erase(
-      std::remove_if(first.samples.begin(), first.samples.end(), is_late),
-      first.samples.end());
-  return first;
+  columns(observations.positions, &cut.positions);
+  columns(observations.sigmas, &cut.sigmas);
+  for (MarkerSample sample : observations.samples) {
+    sample.time -= first;
+    if (sample.time < 0.0 || !IsWithinFrames(sample.time, num_frames)) continue;
+    cut.samples.push_back(sample);
+  }
+  return cut;
 }
 
 bool NoiseIsKnown(const Scene& scene, const Observations& observations) {

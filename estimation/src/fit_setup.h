@@ -16,7 +16,8 @@ Scene WithoutEstimatedValues(const Scene& scene);
 // @throws SceneError if nothing is estimated, or there are not as many frames
 int NumFramesToFit(const Scene& scene, const Observations& observations, int asked_for);
 
-Observations FirstFrames(const Observations& observations, int num_frames);
+// What was observed in `num_frames` frames from `first` on, which becomes frame 0.
+Observations CutFrames(const Observations& observations, int first, int num_frames);
 
 // True if the noise of what is observed is known (MakePositionCosts sees to it that
 // this holds for all observations or for none).

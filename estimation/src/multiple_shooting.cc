@@ -8,6 +8,7 @@
 
 #include "dpe/engine/parameters.h"
 #include "dpe/engine/simulator.h"
+#include "levenberg_marquardt.h"
 #include "shooting_windows.h"
 
 namespace dpe {
@@ -16,7 +17,6 @@ namespace {
 // Above as many parameters their zeros are worth more than a QR factorisation's
 // accuracy, which the polishing has anyway.
 constexpr int kMaxDenseParameters = 400;
-constexpr int kMaxConsecutiveInvalidSteps = 60;
 
 void CheckOptions(const MultipleShootingOptions& options, int num_frames) {
   const auto require = [](bool ok, const char* what) {
@@ -72,29 +72,24 @@ int Minimise(const MultipleShootingOptions& options, int max_iterations,
              double tolerance, TrajectoryProblem* problem) {
   TrajectoryEvaluator* evaluator = problem->evaluator();
   const Eigen::VectorXd start = problem->coordinates();
-  ceres::Solver::Options solver;
+  ceres::Solver::Options solver = LevenbergMarquardtOptions();
   const bool is_joined = evaluator->num_segments() == 1;
-  const bool is_dense = evaluator->num_parameters() <= kMaxDenseParameters || is_joined;
-  solver.linear_solver_type =
-      is_dense ? ceres::DENSE_QR : ceres::SPARSE_NORMAL_CHOLESKY;
-  solver.dense_linear_algebra_library_type = ceres::LAPACK;
-  solver.max_num_iterations = max_iterations;
-  solver.max_num_consecutive_invalid_steps = kMaxConsecutiveInvalidSteps;
-  if (is_joined) {
-    solver.min_lm_diagonal = 1e-24;  // as the fit's, see optimizers.cc
-  } else {
-    solver.min_lm_diagonal =
-        std::max(1e-24, kShortColumn * kShortColumn * LongestColumn(problem));
+  if (!is_joined) {
+    if (evaluator->num_parameters() > kMaxDenseParameters) {
+      solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+    }
+    solver.min_lm_diagonal = std::max(
+        solver.min_lm_diagonal, kShortColumn * kShortColumn * LongestColumn(problem));
     solver.max_lm_diagonal = std::max(solver.max_lm_diagonal, solver.min_lm_diagonal);
     solver.jacobi_scaling = false;  // lengths of columns are to stay
   }
+  solver.max_num_iterations = max_iterations;
   solver.function_tolerance = tolerance;
   solver.gradient_tolerance = 1e-18;
   solver.parameter_tolerance = 1e-12;
   // Ceres's sums would depend on the number of its threads; the work is in the
   // callback.
   solver.num_threads = 1;
-  solver.logging_type = ceres::SILENT;
   StopCallback stop(options);
   solver.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;

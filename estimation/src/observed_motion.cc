@@ -1,7 +1,5 @@
 #include "observed_motion.h"
 
-#include <algorithm>
-
 namespace dpe {
 
 ObservedMotion::ObservedMotion(const Scene& scene, int object,
@@ -16,10 +14,8 @@ ObservedMotion::ObservedMotion(const Scene& scene, int object,
     positions_.middleRows<3>(3 * v).colwise() = cloth_.positions.segment<3>(3 * v);
   }
   for (const PrescribedPath& path : cloth_.prescribed_paths) {
-    const int last = static_cast<int>(path.positions.cols()) - 1;
     for (int f = 0; f < num_frames; ++f) {
-      positions_.col(f).segment<3>(3 * path.vertex) =
-          path.positions.col(std::min(f, last));
+      positions_.col(f).segment<3>(3 * path.vertex) = path.At(f);
     }
   }
   num_steps_ = num_frames - (is_explicit_ ? 2 : 1);

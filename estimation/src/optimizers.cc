@@ -8,12 +8,10 @@
 #include <memory>
 #include <utility>
 
+#include "levenberg_marquardt.h"
+
 namespace dpe {
 namespace {
-
-// Enough for a trust region to shrink from its default to a useful size while every
-// trial step's rollout fails.
-constexpr int kMaxConsecutiveInvalidSteps = 60;
 
 // L-BFGS is restarted from its best point when a line search finds no decrease; it has
 // converged when a restart gains less than this fraction of the cost.
@@ -113,23 +111,13 @@ void SetUniformDamping(TrajectoryProblem* problem, ceres::Solver::Options* solve
 
 OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
   const EstimatorOptions& options = *context->options;
-  ceres::Solver::Options solver;
-  solver.minimizer_type = ceres::TRUST_REGION;
-  solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
-  // QR does not square the condition number, as normal equations would.
-  solver.linear_solver_type = ceres::DENSE_QR;
-  solver.dense_linear_algebra_library_type = ceres::LAPACK;
+  ceres::Solver::Options solver = LevenbergMarquardtOptions();
   solver.max_num_iterations = MaxIterations(*context, kDefaultLmIterations);
-  solver.max_num_consecutive_invalid_steps = kMaxConsecutiveInvalidSteps;
-  // The damping is relative to the squared column lengths of J. Ceres raises those to
-  // 1e-6 before, which would drown columns of short lengths (m per unit of ln p).
-  solver.min_lm_diagonal = 1e-24;
   SetUniformDamping(context->problem(), &solver);
   solver.function_tolerance = options.function_tolerance;
   solver.gradient_tolerance = options.gradient_tolerance;
   solver.parameter_tolerance = options.parameter_tolerance;
   solver.num_threads = options.num_threads;
-  solver.logging_type = ceres::SILENT;
   ProgressCallback callback(context);
   solver.callbacks.push_back(&callback);
   ceres::Solver::Summary summary;

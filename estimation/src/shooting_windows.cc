@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dpe/engine/parameters.h"
+#include "fit_setup.h"
 #include "state_guess.h"
 
 namespace dpe {
@@ -16,30 +17,17 @@ PrescribedPath PathFrom(const PrescribedPath& path, int frame) {
   return {path.vertex, path.positions.rightCols(last - first + 1)};
 }
 
-Eigen::MatrixXd Columns(const Eigen::MatrixXd& matrix, int first, int count) {
-  const int available = static_cast<int>(matrix.cols()) - first;
-  if (matrix.size() == 0 || available <= 0) return {};
-  return matrix.middleCols(first, std::min(count, available));
-}
-
+// Without the first frame, which the window before ends at.
 Observations ObservationsOf(const Observations& all, int first, int num_frames) {
-  Observations window;
-  window.markers = all.markers;
-  window.sigma = all.sigma;
-  for (const Eigen::MatrixXd& positions : all.positions) {
-    window.positions.push_back(Columns(positions, first, num_frames));
-    if (first > 0 && window.positions.back().size() > 0) {
-      window.positions.back().col(0).setConstant(std::nan(""));
-    }
+  Observations window = CutFrames(all, first, num_frames);
+  if (first == 0) return window;
+  for (Eigen::MatrixXd& positions : window.positions) {
+    if (positions.size() > 0) positions.col(0).setConstant(std::nan(""));
   }
-  for (const Eigen::MatrixXd& sigmas : all.sigmas) {
-    window.sigmas.push_back(Columns(sigmas, first, num_frames));
-  }
-  for (MarkerSample sample : all.samples) {
-    sample.time -= first;
-    const bool begins = first == 0 ? sample.time >= 0.0 : sample.time > 0.0;
-    if (begins && sample.time <= num_frames - 1) window.samples.push_back(sample);
-  }
+  std::vector<MarkerSample>& samples = window.samples;
+  samples.erase(std::remove_if(samples.begin(), samples.end(),
+                               [](const MarkerSample& s) { return s.time == 0.0; }),
+                samples.end());
   return window;
 }
 

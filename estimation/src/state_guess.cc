@@ -1,6 +1,5 @@
 #include "state_guess.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace dpe {
@@ -48,9 +47,7 @@ double SquaredDistance(const Points& base, const Anchors& anchors) {
 
 Eigen::Vector3d OnPath(const ClothObject& cloth, int vertex, int frame) {
   for (const PrescribedPath& path : cloth.prescribed_paths) {
-    if (path.vertex != vertex) continue;
-    const int last = static_cast<int>(path.positions.cols()) - 1;
-    return path.positions.col(std::min(frame, last));
+    if (path.vertex == vertex) return path.At(frame);
   }
   return cloth.positions.segment<3>(3 * vertex);
 }

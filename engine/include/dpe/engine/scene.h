@@ -4,6 +4,7 @@
 #define DPE_ENGINE_SCENE_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string>
@@ -56,6 +57,10 @@ struct Collider {
 struct PrescribedPath {
   int vertex = -1;
   Eigen::Matrix3Xd positions;  // m
+
+  Eigen::Vector3d At(int frame) const {
+    return positions.col(std::min<Eigen::Index>(frame, positions.cols() - 1));
+  }
 };
 
 struct ClothObject {
