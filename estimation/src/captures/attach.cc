@@ -125,8 +125,7 @@ class Attacher {
 
   int AddVertexMarker(int m, const Place& place) {
     Marker marker;
-    marker.name =
-        capture_.markers_are_vertices() ? std::to_string(m) : capture_.marker_names[m];
+    marker.name = MarkerName(capture_, m);
     marker.object = place.object;
     marker.vertices = {place.vertex};
     marker.weights = {1.0};

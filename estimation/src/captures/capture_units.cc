@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "captures/marker_places.h"
 #include "captures/text.h"
 #include "dpe/engine/scene.h"
 #include "dpe/estimation/capture.h"
@@ -61,9 +62,8 @@ void ToSceneUnits(const CaptureOptions& options, double frame_length,
   const double origin = from_first ? FirstTime(*capture) : 0.0;
   for (CaptureSample& sample : capture->samples) {
     if (sample.time < origin) {
-      std::string text = capture->path;
-      if (sample.line > 0) text += ":" + std::to_string(sample.line);
-      throw SceneError(text + ": the time is " + NumberText(sample.time) +
+      FailAtSample(*capture, sample,
+                   "the time is " + NumberText(sample.time) +
                        "; accepted are times from 0, the initial state");
     }
     sample.time = (sample.time - origin) * frames_per_unit;

@@ -1,32 +1,31 @@
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
+#include "captures/binary.h"
 #include "captures/readers.h"
 #include "captures/text.h"
 #include "dpe/engine/scene.h"
 
 namespace dpe {
-namespace {
-
-// Assembled byte by byte, whatever the order of this machine.
-template <typename Float, typename Bits>
-double ReadNumber(const char* bytes, bool big_endian) {
-  Bits bits = 0;
-  for (size_t i = 0; i < sizeof(Bits); ++i) {
-    const size_t byte = big_endian ? i : sizeof(Bits) - 1 - i;
-    bits = static_cast<Bits>(bits << 8 | static_cast<unsigned char>(bytes[byte]));
-  }
-  Float value;
-  std::memcpy(&value, &bits, sizeof(value));
-  return value;
-}
-
-}  // namespace
-
 void FailAtByte(const std::string& path, long byte, const std::string& what) {
   throw SceneError(path + ": byte " + std::to_string(byte) + ": " + what);
+}
+
+namespace {
+
+// The file ends where the numbers do.
+void RequireEnd(const DenseBlock& block, const std::string& content) {
+  // In floating point, which does not overflow.
+  const double expected = static_cast<double>(block.offset) +
+                          3.0 * block.bytes * static_cast<double>(block.num_frames) *
+                              static_cast<double>(block.num_vertices);
+  if (expected == static_cast<double>(content.size())) return;
+  FailAtByte(block.path, static_cast<long>(content.size()),
+             "is the end of the file; accepted is an end at byte " +
+                 std::to_string(static_cast<long>(expected)) + ", after " +
+                 std::to_string(block.num_frames) + " " + block.frames + " of " +
+                 std::to_string(block.num_vertices) + " " + block.vertices);
 }
 
 void AppendDenseSamples(const DenseBlock& block, const std::string& content,
@@ -47,8 +46,8 @@ void AppendDenseSamples(const DenseBlock& block, const std::string& content,
         const char* bytes = content.data() + place[c];
         sample.position[c] =
             block.bytes == 4
-                ? ReadNumber<float, std::uint32_t>(bytes, block.big_endian)
-                : ReadNumber<double, std::uint64_t>(bytes, block.big_endian);
+                ? ReadFloat<float, std::uint32_t>(bytes, block.big_endian)
+                : ReadFloat<double, std::uint64_t>(bytes, block.big_endian);
         num_nan += std::isnan(sample.position[c]) ? 1 : 0;
       }
       if (num_nan == 3 && nan_is_missing) continue;
@@ -64,6 +63,19 @@ void AppendDenseSamples(const DenseBlock& block, const std::string& content,
     }
   }
   if (capture->samples.empty()) throw SceneError(block.path + ": has no data");
+}
+
+}  // namespace
+
+Capture ReadDenseBlock(const DenseBlock& block, const std::string& content, double step,
+                       bool nan_is_missing) {
+  RequireEnd(block, content);
+  Capture capture;
+  capture.path = block.path;
+  capture.format = block.format;
+  capture.num_vertices = static_cast<int>(block.num_vertices);
+  AppendDenseSamples(block, content, step, nan_is_missing, &capture);
+  return capture;
 }
 
 }  // namespace dpe

@@ -195,8 +195,7 @@ class MarkerPlacer {
     }
     const auto& triangle = scene_.objects[object].triangles[nearest.triangle];
     Marker marker;
-    marker.name =
-        capture_.markers_are_vertices() ? std::to_string(m) : capture_.marker_names[m];
+    marker.name = MarkerName(capture_, m);
     marker.object = object;
     marker.vertices.assign(triangle.begin(), triangle.end());
     marker.weights.assign(nearest.weights.data(), nearest.weights.data() + 3);
@@ -224,9 +223,14 @@ MarkerPlaces PlaceMarkers(const Capture& capture, const Scene& scene,
   return MarkerPlacer(capture, scene, options, warnings).PlaceAll();
 }
 
+std::string MarkerName(const Capture& capture, int marker) {
+  return capture.markers_are_vertices() ? std::to_string(marker)
+                                        : capture.marker_names[marker];
+}
+
 std::string MarkerText(const Capture& capture, int marker) {
-  return capture.markers_are_vertices() ? "vertex " + std::to_string(marker)
-                                        : "marker " + capture.marker_names[marker];
+  return (capture.markers_are_vertices() ? "vertex " : "marker ") +
+         MarkerName(capture, marker);
 }
 
 void FailAtSample(const Capture& capture, const CaptureSample& sample,

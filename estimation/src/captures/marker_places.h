@@ -31,6 +31,9 @@ MarkerPlaces PlaceMarkers(const Capture& capture, const Scene& scene,
                           const AttachOptions& options,
                           std::vector<std::string>* warnings);
 
+// "3" (a vertex) or "A".
+std::string MarkerName(const Capture& capture, int marker);
+
 // "vertex 3" or "marker A".
 std::string MarkerText(const Capture& capture, int marker);
 

@@ -36,6 +36,7 @@ class NpyHeader {
     header_ = std::string_view(content_).substr(begin_, length);
     DenseBlock block;
     block.path = path_;
+    block.format = "NPY";
     block.offset = begin_ + length;
     ReadType(&block);
     ReadOrder(&block);
@@ -122,23 +123,8 @@ class NpyHeader {
 
 Capture ReadNpyCapture(const std::string& path, const std::string& content,
                        const CaptureOptions& options) {
-  const DenseBlock block = NpyHeader(path, content).Read();
-  const double expected = static_cast<double>(block.offset) +
-                          3.0 * block.bytes * static_cast<double>(block.num_frames) *
-                              static_cast<double>(block.num_vertices);
-  if (expected != static_cast<double>(content.size())) {
-    FailAtByte(path, static_cast<long>(content.size()),
-               "is the end of the file; accepted is an end at byte " +
-                   std::to_string(static_cast<long>(expected)) + ", after " +
-                   std::to_string(block.num_frames) + " frames of " +
-                   std::to_string(block.num_vertices) + " vertices");
-  }
-  Capture capture;
-  capture.path = path;
-  capture.format = "NPY";
-  capture.num_vertices = static_cast<int>(block.num_vertices);
-  AppendDenseSamples(block, content, 1.0, options.nan_is_missing, &capture);
-  return capture;
+  return ReadDenseBlock(NpyHeader(path, content).Read(), content, 1.0,
+                        options.nan_is_missing);
 }
 
 }  // namespace dpe

@@ -9,8 +9,8 @@
 //        32  float32   x, y, z of every point, sample after sample
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
+#include "captures/binary.h"
 #include "captures/readers.h"
 #include "captures/text.h"
 #include "dpe/engine/scene.h"
@@ -21,11 +21,7 @@ namespace {
 constexpr long kHeaderBytes = 32;
 
 std::uint32_t Word(const std::string& content, long byte) {
-  std::uint32_t bits = 0;
-  for (int i = 3; i >= 0; --i) {
-    bits = bits << 8 | static_cast<unsigned char>(content[byte + i]);
-  }
-  return bits;
+  return ReadBits<std::uint32_t>(content.data() + byte);
 }
 
 long Count(const std::string& path, const std::string& content, long byte,
@@ -40,10 +36,7 @@ long Count(const std::string& path, const std::string& content, long byte,
 }
 
 double Float(const std::string& content, long byte) {
-  const std::uint32_t bits = Word(content, byte);
-  float value;
-  std::memcpy(&value, &bits, sizeof(value));
-  return value;
+  return ReadFloat<float, std::uint32_t>(content.data() + byte);
 }
 
 }  // namespace
@@ -61,6 +54,9 @@ Capture ReadPc2Capture(const std::string& path, const std::string& content,
   }
   DenseBlock block;
   block.path = path;
+  block.format = "PC2";
+  block.frames = "samples";
+  block.vertices = "points";
   block.offset = kHeaderBytes;
   block.bytes = 4;
   block.num_vertices = Count(path, content, 16, "the number of points");
@@ -72,21 +68,7 @@ Capture ReadPc2Capture(const std::string& path, const std::string& content,
                "the sample rate is " + std::to_string(step) +
                    "; accepted is a number > 0 (frames from one sample to the next)");
   }
-  // In floating point, which does not overflow.
-  const double expected = kHeaderBytes + 12.0 * static_cast<double>(block.num_frames) *
-                                             static_cast<double>(block.num_vertices);
-  if (expected != static_cast<double>(size)) {
-    FailAtByte(path, size,
-               "is the end of the file; accepted is an end at byte " +
-                   std::to_string(static_cast<long>(expected)) + ", after " +
-                   std::to_string(block.num_frames) + " samples of " +
-                   std::to_string(block.num_vertices) + " points");
-  }
-  Capture capture;
-  capture.path = path;
-  capture.format = "PC2";
-  capture.num_vertices = static_cast<int>(block.num_vertices);
-  AppendDenseSamples(block, content, step, options.nan_is_missing, &capture);
+  Capture capture = ReadDenseBlock(block, content, step, options.nan_is_missing);
   for (CaptureSample& sample : capture.samples) sample.time += start;
   return capture;
 }

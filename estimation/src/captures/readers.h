@@ -37,10 +37,13 @@ bool IsSequenceName(const std::string& path);
 Capture ReadObjSequence(const std::string& pattern,
                         const std::vector<SequenceFile>& files);
 
-// Frames x vertices x 3 numbers of a binary file.
+// Frames x vertices x 3 numbers of a binary file, which are its end.
 struct DenseBlock {
   std::string path;
-  long offset = 0;  // byte at which the numbers begin
+  const char* format = "";            // of the capture
+  const char* frames = "frames";      // what the format calls them
+  const char* vertices = "vertices";  // likewise
+  long offset = 0;                    // byte at which the numbers begin
   long num_frames = 0;
   long num_vertices = 0;
   int bytes = 8;  // of a number: 4 or 8
@@ -48,10 +51,10 @@ struct DenseBlock {
   bool fortran_order = false;  // the first index is the fastest
 };
 
-// Appends the samples of all frames, frame f at time f * step. The content must hold
-// them all.
-void AppendDenseSamples(const DenseBlock& block, const std::string& content,
-                        double step, bool nan_is_missing, Capture* capture);
+// The samples of all frames, frame f at time f * step.
+// @throws SceneError if the file does not end after them, or one is not finite
+Capture ReadDenseBlock(const DenseBlock& block, const std::string& content, double step,
+                       bool nan_is_missing);
 
 // "FILE: byte 12: what", as a SceneError.
 [[noreturn]] void FailAtByte(const std::string& path, long byte,
