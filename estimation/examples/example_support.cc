@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <exception>
 
 #include "dpe/estimation/trajectory_cost_check.h"
 
@@ -50,6 +51,15 @@ bool PrintComparison(const ParameterLayout& layout, const Eigen::VectorXd& truth
   }
   std::printf("%s\n", is_recovered ? "recovered" : "NOT recovered");
   return is_recovered;
+}
+
+int RunExample(const char* name, bool (*run)()) {
+  try {
+    return run() ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: error: %s\n", name, error.what());
+    return 1;
+  }
 }
 
 }  // namespace dpe::examples

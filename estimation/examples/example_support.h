@@ -24,6 +24,11 @@ bool PrintComparison(const ParameterLayout& layout, const Eigen::VectorXd& truth
                      const Eigen::VectorXd& start, const Eigen::VectorXd& found,
                      double tolerance);
 
+// What main returns: 0 if the example recovered what it looked for. Prints an exception
+// as an error.
+// @param name  of the program
+int RunExample(const char* name, bool (*run)());
+
 }  // namespace dpe::examples
 
 #endif  // DPE_ESTIMATION_EXAMPLES_EXAMPLE_SUPPORT_H_

@@ -4,7 +4,6 @@
 //
 // Exit code 0: the parameters that made the measurements were recovered.
 #include <cstdio>
-#include <exception>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -129,11 +128,4 @@ bool Run() {
 }  // namespace
 }  // namespace dpe::examples
 
-int main() {
-  try {
-    return dpe::examples::Run() ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "marker_to_plane: error: %s\n", error.what());
-    return 1;
-  }
-}
+int main() { return dpe::examples::RunExample("marker_to_plane", dpe::examples::Run); }

@@ -8,7 +8,6 @@
 // Exit code 0: the parameters that made the measurements were recovered.
 #include <array>
 #include <cstdio>
-#include <exception>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -161,11 +160,4 @@ bool Run() {
 }  // namespace
 }  // namespace dpe::examples
 
-int main() {
-  try {
-    return dpe::examples::Run() ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "stretch_energy: error: %s\n", error.what());
-    return 1;
-  }
-}
+int main() { return dpe::examples::RunExample("stretch_energy", dpe::examples::Run); }

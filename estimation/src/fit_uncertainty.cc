@@ -1,6 +1,5 @@
 #include "fit_uncertainty.h"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -21,10 +20,7 @@ Uncertainty NotComputed(const std::string& why) {
 
 // R of J = Q R, in chunks of rows.
 Eigen::MatrixXd Triangle(const RowMajorMatrix& jacobian, int num_threads) {
-  std::vector<int> chunk_rows;
-  for (int row = 0; row < jacobian.rows(); row += kRowsPerChunk) {
-    chunk_rows.push_back(std::min<int>(kRowsPerChunk, jacobian.rows() - row));
-  }
+  const std::vector<int> chunk_rows = ChunkRows(static_cast<int>(jacobian.rows()));
   Eigen::MatrixXd r;
   TallQr(
       chunk_rows, static_cast<int>(jacobian.cols()), num_threads,

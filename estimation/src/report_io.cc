@@ -5,20 +5,13 @@
 #include <vector>
 
 #include "dpe/engine/parameters.h"
+#include "json_numbers_io.h"
 #include "uncertainty_io.h"
 
 namespace dpe {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json Numbers(const Eigen::VectorXd& values) {
-  Json array = Json::array();
-  for (const double value : values) array.push_back(Number(value));
-  return array;
-}
 
 Json Parameters(const EstimationInput& input, const EstimatorSummary& summary) {
   const ParameterLayout layout(input.scene);
@@ -33,11 +26,11 @@ Json Parameters(const EstimationInput& input, const EstimatorSummary& summary) {
     entry["kind"] = block.kind;
     entry["mode"] = std::string(1, block.mode);
     entry["unit"] = block.unit;
-    entry["values"] = Numbers(block.values);
+    entry["values"] = JsonNumbers(block.values);
     const bool known =
         input.truth_is_known && layout.Represents(input.scene, static_cast<int>(b));
     entry["true_values"] =
-        known ? Numbers(truth.segment(place.offset, place.size)) : Json(nullptr);
+        known ? JsonNumbers(truth.segment(place.offset, place.size)) : Json(nullptr);
     if (!block.elements.empty()) entry["elements"] = block.elements;
     entry["inactive"] = block.inactive;
     array.push_back(std::move(entry));
@@ -50,8 +43,8 @@ Json Horizons(const EstimatorSummary& summary) {
   for (const HorizonStage& stage : summary.horizons) {
     array.push_back({{"frames", stage.num_frames},
                      {"iterations", stage.iterations},
-                     {"start_rms_m", Number(stage.start_rms)},
-                     {"rms_m", Number(stage.final_rms)}});
+                     {"start_rms_m", JsonNumber(stage.start_rms)},
+                     {"rms_m", JsonNumber(stage.final_rms)}});
   }
   return array;
 }
@@ -77,22 +70,22 @@ std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
   report["iterations"] = summary.iterations;
   report["evaluations"] = summary.evaluations;
   report["jacobian_evaluations"] = summary.jacobian_evaluations;
-  report["wall_time_s"] = Number(summary.wall_time_s);
-  report["initial_cost"] = Number(summary.initial_cost);
-  report["final_cost"] = Number(summary.final_cost);
-  report["initial_rms_position_error_m"] = Number(summary.initial_rms);
-  report["rms_position_error_m"] = Number(summary.final_rms);
+  report["wall_time_s"] = JsonNumber(summary.wall_time_s);
+  report["initial_cost"] = JsonNumber(summary.initial_cost);
+  report["final_cost"] = JsonNumber(summary.final_cost);
+  report["initial_rms_position_error_m"] = JsonNumber(summary.initial_rms);
+  report["rms_position_error_m"] = JsonNumber(summary.final_rms);
   report["validation"] = {
       {"frames", validation.num_frames},
-      {"rms_position_error_m", Number(validation.rms)},
+      {"rms_position_error_m", JsonNumber(validation.rms)},
       {"note", validation.note.empty() ? Json(nullptr) : Json(validation.note)}};
   report["parameter_deviation_percent"] =
       input.truth_is_known && std::isfinite(summary.final_cost)
-          ? Number(ParameterDeviationPercent(summary, input.scene))
+          ? JsonNumber(ParameterDeviationPercent(summary, input.scene))
           : Json(nullptr);
-  report["noise_sigma_m"] = Number(job.noise_sigma);
+  report["noise_sigma_m"] = JsonNumber(job.noise_sigma);
   report["seed"] = job.options.seed;
-  report["sigma_m"] = Number(input.target.sigma);
+  report["sigma_m"] = JsonNumber(input.target.sigma);
   report["loss"] = LossTypeName(job.options.loss);
   report["horizons"] = Horizons(summary);
   report["parameters"] = Parameters(input, summary);

@@ -56,6 +56,14 @@ int NumStreams(const std::vector<int>& chunk_rows, int num_columns) {
 
 }  // namespace
 
+std::vector<int> ChunkRows(int num_rows) {
+  std::vector<int> chunk_rows;
+  for (int row = 0; row < num_rows; row += kRowsPerChunk) {
+    chunk_rows.push_back(std::min(kRowsPerChunk, num_rows - row));
+  }
+  return chunk_rows;
+}
+
 bool TallQr(const std::vector<int>& chunk_rows, int num_columns, int num_threads,
             const std::function<bool(int, Eigen::Ref<Eigen::MatrixXd>)>& fill,
             Eigen::MatrixXd* r) {

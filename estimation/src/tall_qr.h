@@ -32,6 +32,9 @@ namespace dpe {
 // columns that fit into any second-level cache.
 constexpr int kRowsPerChunk = 512;
 
+// Chunks of kRowsPerChunk rows, the last of what is left.
+std::vector<int> ChunkRows(int num_rows);
+
 // @param chunk_rows    number of rows of each chunk
 // @param num_columns   n
 // @param num_threads   threads to use

@@ -132,10 +132,8 @@ class UncertaintyAnalysis {
     } else {
       const int n = input_.layout->size();
       const int num_rows = static_cast<int>(input_.prior_rows.rows());
-      std::vector<int> chunk_rows = {n};
-      for (int row = 0; row < num_rows; row += kRowsPerChunk) {
-        chunk_rows.push_back(std::min(kRowsPerChunk, num_rows - row));
-      }
+      std::vector<int> chunk_rows = ChunkRows(num_rows);
+      chunk_rows.insert(chunk_rows.begin(), n);
       Eigen::MatrixXd triangle;
       TallQr(
           chunk_rows, n, options_.num_threads,

@@ -1,26 +1,17 @@
 #include "uncertainty_io.h"
 
-#include <cmath>
+#include "json_numbers_io.h"
 
 namespace dpe {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-template <typename Values>
-Json Numbers(const Values& values) {
-  Json array = Json::array();
-  for (const double value : values) array.push_back(Number(value));
-  return array;
-}
-
 Json Matrix(const Eigen::MatrixXd& matrix) {
   if (matrix.size() == 0) return nullptr;
   Json rows = Json::array();
   for (int i = 0; i < matrix.rows(); ++i) {
-    rows.push_back(Numbers(Eigen::VectorXd(matrix.row(i).transpose())));
+    rows.push_back(JsonNumbers(Eigen::VectorXd(matrix.row(i).transpose())));
   }
   return rows;
 }
@@ -32,10 +23,10 @@ Json Block(const BlockUncertainty& block) {
   entry["kind"] = block.kind;
   entry["mode"] = std::string(1, block.mode);
   entry["unit"] = block.unit;
-  entry["values"] = Numbers(block.values);
-  entry["standard_deviations"] = Numbers(block.standard_deviations);
-  entry["relative"] = Numbers(block.relative);
-  entry["determined_part"] = Numbers(block.determined_part);
+  entry["values"] = JsonNumbers(block.values);
+  entry["standard_deviations"] = JsonNumbers(block.standard_deviations);
+  entry["relative"] = JsonNumbers(block.relative);
+  entry["determined_part"] = JsonNumbers(block.determined_part);
   Json flags = Json::array();
   for (size_t k = 0; k < block.flags.size(); ++k) {
     if (block.flags[k] == 0) continue;
@@ -56,8 +47,8 @@ Json Direction(const Uncertainty& uncertainty, const UndeterminedDirection& dire
   entry["pattern"] = DirectionPatternName(direction.pattern);
   entry["num_parameters"] = direction.num_parameters;
   entry["parts"] = std::move(parts);
-  entry["data_std"] = Number(direction.data_std);
-  entry["std"] = Number(direction.std);
+  entry["data_std"] = JsonNumber(direction.data_std);
+  entry["std"] = JsonNumber(direction.std);
   entry["text"] = direction.text;
   return entry;
 }
@@ -70,9 +61,9 @@ nlohmann::ordered_json UncertaintyToJson(const Uncertainty& uncertainty) {
   json["message"] =
       uncertainty.message.empty() ? Json(nullptr) : Json(uncertainty.message);
   json["noise_known"] = uncertainty.noise_is_known;
-  json["noise"] = Number(uncertainty.noise);
+  json["noise"] = JsonNumber(uncertainty.noise);
   json["degrees_of_freedom"] = uncertainty.degrees_of_freedom;
-  json["reduced_chi_square"] = Number(uncertainty.reduced_chi_square);
+  json["reduced_chi_square"] = JsonNumber(uncertainty.reduced_chi_square);
   json["rank"] = uncertainty.rank;
   json["weak_directions"] = uncertainty.num_weak_directions;
   json["parameters"] = Json::array();
@@ -86,7 +77,7 @@ nlohmann::ordered_json UncertaintyToJson(const Uncertainty& uncertainty) {
     json["strongest_correlations"].push_back(
         {{"first", uncertainty.names[pair.first]},
          {"second", uncertainty.names[pair.second]},
-         {"correlation", Number(pair.correlation)},
+         {"correlation", JsonNumber(pair.correlation)},
          {"text", pair.text}});
   }
   json["directions"] = Json::array();
