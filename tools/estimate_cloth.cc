@@ -173,30 +173,11 @@ Horizon HorizonFromFlag() {
   Refuse("horizon", FLAGS_horizon, "auto, full or grow");
 }
 
-void SetLossFromFlags(EstimatorOptions* options) {
-  try {
-    options->loss = LossTypeFromName(FLAGS_loss);
-  } catch (const SceneError&) {
-    Refuse("loss", FLAGS_loss, "none, huber, cauchy or tukey");
-  }
-  options->loss_scale = FLAGS_loss_scale;
-}
-
 UncertaintyMode UncertaintyFromFlag() {
   if (FLAGS_uncertainty == "auto") return UncertaintyMode::kAuto;
   if (FLAGS_uncertainty == "on") return UncertaintyMode::kOn;
   if (FLAGS_uncertainty == "off") return UncertaintyMode::kOff;
   Refuse("uncertainty", FLAGS_uncertainty, "auto, on or off");
-}
-
-// Names the flag in the error of a function that reads its value.
-template <typename Function>
-auto FromFlag(const std::string& flag, const std::string& value, Function read) {
-  try {
-    return read(value);
-  } catch (const SceneError& error) {
-    throw SceneError("--" + flag + ": " + error.what());
-  }
 }
 
 TargetOptions TargetFromFlags() {
@@ -256,7 +237,8 @@ EstimationJob JobFromFlags() {
   SetInitFromFlag(&job.options);
   job.sigma = FLAGS_sigma;
   job.options.horizon = HorizonFromFlag();
-  SetLossFromFlags(&job.options);
+  job.options.loss = FromFlag("loss", FLAGS_loss, LossTypeFromName);
+  job.options.loss_scale = FLAGS_loss_scale;
   job.options.init_perturbation = FLAGS_init_perturbation;
   job.options.seed = FLAGS_seed;
   job.options.max_iterations = FLAGS_max_iterations;

@@ -85,14 +85,6 @@ Scene SceneFromFlags() {
   return scene;
 }
 
-TrajectoryFormat FormatFromFlag() {
-  try {
-    return TrajectoryFormatFromName(FLAGS_format);
-  } catch (const SceneError& error) {
-    throw SceneError(std::string("--") + error.what());
-  }
-}
-
 // "7 frames to out.csv" or "7 frames to a_0000.obj ... a_0006.obj"
 std::string Written(const std::vector<std::string>& files, int frames) {
   std::string text = std::to_string(frames) + " frames to " + files.front();
@@ -102,7 +94,8 @@ std::string Written(const std::vector<std::string>& files, int frames) {
 
 int Main() {
   const Scene scene = SceneFromFlags();
-  const TrajectoryFormat format = FormatFromFlag();
+  const TrajectoryFormat format =
+      FromFlag("format", FLAGS_format, TrajectoryFormatFromName);
   UseOneBlasThread();
   SimulatorOptions options;
   options.num_threads = FLAGS_threads;

@@ -3,6 +3,8 @@
 #include <cctype>
 #include <utility>
 
+#include "io/enum_names.h"
+
 namespace dpe {
 namespace {
 
@@ -93,6 +95,12 @@ IntegrationMethod IntegrationMethodFromName(const std::string& name) {
   throw SceneError(
       "the integration method \"" + name +
       "\" is not accepted; expected the number or the name of one of: " + accepted);
+}
+
+std::string SpringKindName(SpringKind kind) { return NameOf(kSpringKindNames, kind); }
+
+std::string AerodynamicsLawName(AerodynamicsLaw law) {
+  return NameOf(kAerodynamicsNames, law);
 }
 
 void ApplySettings(const std::string& settings, Scene* scene) {

@@ -121,11 +121,8 @@ class ClothComparison {
     const bool has_drag = a.drag_coefficient != 0.0 || a.estimate_drag;
     if (has_drag && first_.aerodynamics != other_.aerodynamics) {
       object_ = -1;
-      const auto name = [](AerodynamicsLaw law) {
-        return std::string(law == AerodynamicsLaw::kAuthored ? "authored"
-                                                             : "unit_normal");
-      };
-      Fail("aerodynamics", name(first_.aerodynamics), name(other_.aerodynamics),
+      Fail("aerodynamics", AerodynamicsLawName(first_.aerodynamics),
+           AerodynamicsLawName(other_.aerodynamics),
            " (the drag coefficient means different things in the two)");
     }
   }

@@ -13,18 +13,6 @@ std::vector<int> GroupsOf(const ClothObject& object, ParameterKind kind) {
   return kind == ParameterKind::kMass ? VertexGroups(object) : SpringGroups(object);
 }
 
-std::string SpringKindName(SpringKind kind) {
-  switch (kind) {
-    case SpringKind::kStretch:
-      return "stretch";
-    case SpringKind::kShear:
-      return "shear";
-    case SpringKind::kBend:
-      break;
-  }
-  return "bend";
-}
-
 // "the shear stiffness" where a group is the springs of one kind, else "the stiffness
 // of group 2".
 std::string GroupName(const ClothObject& object, const ParameterBlock& block,

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "dpe/engine/scene.h"
+
 namespace dpe::tools {
 
 // "a;b;c" -> {"a", "b", "c"}; an empty text has no parts.
@@ -28,6 +30,16 @@ std::vector<int> ParseIndices(const std::string& flag, const std::string& text);
 // @param meaning  "the scene file to write"
 void RequireFlag(const std::string& flag, const std::string& value,
                  const std::string& meaning);
+
+// What `read` makes of a flag's value; its error is made to name the flag.
+template <typename Function>
+auto FromFlag(const std::string& flag, const std::string& value, Function read) {
+  try {
+    return read(value);
+  } catch (const SceneError& error) {
+    throw SceneError("--" + flag + ": " + error.what());
+  }
+}
 
 }  // namespace dpe::tools
 

@@ -129,6 +129,10 @@ std::string IntegrationMethodName(IntegrationMethod method);
 // Accepts a name or the number as text. @throws SceneError naming what is accepted.
 IntegrationMethod IntegrationMethodFromName(const std::string& name);
 
+// As in scene files: "stretch", "shear", "bend"; "authored", "unit_normal".
+std::string SpringKindName(SpringKind kind);
+std::string AerodynamicsLawName(AerodynamicsLaw law);
+
 // Sets the two letters of each object's `optimizationSettings`.
 //
 // @param settings  two letters per object, separated by commas: "nL,nn". Objects
