@@ -77,18 +77,19 @@ Observations CutFrames(const Observations& observations, int first, int num_fram
 
 bool NoiseIsKnown(const Scene& scene, const Observations& observations) {
   bool is_known = false;
-  ForEachSigma(
-      scene, observations, observations.num_frames(),
-      [&](double sigma, bool is_moved) { is_known |= is_moved && sigma > 0.0; });
+  ForEachObservation(scene, observations, observations.num_frames(),
+                     [&](double /*time*/, double sigma, bool is_moved) {
+                       is_known |= is_moved && sigma > 0.0;
+                     });
   return is_known;
 }
 
 double CostOfRms(const Scene& scene, const Observations& observations, double rms) {
   double sum = 0.0;  // of squared weights
-  ForEachSigma(scene, observations, observations.num_frames(),
-               [&](double sigma, bool /*is_moved*/) {
-                 sum += sigma > 0.0 ? 1.0 / (sigma * sigma) : 1.0;
-               });
+  ForEachObservation(scene, observations, observations.num_frames(),
+                     [&](double /*time*/, double sigma, bool /*is_moved*/) {
+                       sum += sigma > 0.0 ? 1.0 / (sigma * sigma) : 1.0;
+                     });
   return 0.5 * rms * rms * sum;
 }
 

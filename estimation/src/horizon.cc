@@ -1,5 +1,7 @@
 #include "horizon.h"
 
+#include "moved_observations.h"
+
 namespace dpe {
 namespace {
 
@@ -29,7 +31,8 @@ class HorizonGrower {
 
   GrownHorizon Run(const Eigen::VectorXd& start) {
     result_.coordinates = start;
-    int solved = 1;  // frame 0 is given
+    // Frame 0 is given, and horizons in which nothing was seen say nothing.
+    int solved = FirstMovedFrame(blank_, observations_, num_frames_);
     int step = kFirstHorizon - 1;
     while (solved + step < num_frames_ && !context_->stop->stopped()) {
       if (Fit(solved + step)) {

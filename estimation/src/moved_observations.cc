@@ -1,5 +1,9 @@
 #include "moved_observations.h"
 
+#include <cmath>
+
+#include "frame_interpolation.h"
+
 namespace dpe {
 
 std::vector<char> MovedMarkers(const Scene& scene, const Observations& observations) {
@@ -17,6 +21,17 @@ std::vector<char> MovedMarkers(const Scene& scene, const Observations& observati
     }
   }
   return is_moved;
+}
+
+int FirstMovedFrame(const Scene& scene, const Observations& observations,
+                    int num_frames) {
+  int first = num_frames;
+  ForEachObservation(scene, observations, num_frames,
+                     [&](double time, double /*sigma*/, bool is_moved) {
+                       if (!is_moved || IsWithinFrames(time, 1)) return;
+                       while (first > 1 && IsWithinFrames(time, first)) --first;
+                     });
+  return first;
 }
 
 }  // namespace dpe

@@ -15,13 +15,13 @@ namespace dpe {
 // part in the motion of a free vertex.
 std::vector<char> MovedMarkers(const Scene& scene, const Observations& observations);
 
-// Calls see(sigma, is_moved) for every observation of an estimated object in the first
-// `num_frames` frames, and for every sample, with its noise (m; 0: not known) and
-// whether a parameter moves it: not fixed vertices, nor vertices at frame 0, which is
-// given.
+// Calls see(time, sigma, is_moved) for every observation of an estimated object in the
+// first `num_frames` frames, and for every sample: its time in frames, its noise (m; 0:
+// not known), and whether a parameter moves it: not fixed vertices, nor what is at
+// frame 0, which is given.
 template <typename See>
-void ForEachSigma(const Scene& scene, const Observations& observations, int num_frames,
-                  See see) {
+void ForEachObservation(const Scene& scene, const Observations& observations,
+                        int num_frames, See see) {
   const std::vector<char> is_estimated = ParameterLayout::EstimatedObjects(scene);
   for (int object = 0; object < static_cast<int>(observations.positions.size());
        ++object) {
@@ -31,15 +31,21 @@ void ForEachSigma(const Scene& scene, const Observations& observations, int num_
     for (int f = 0; f < frames; ++f) {
       for (int v = 0; v < cloth.num_vertices(); ++v) {
         if (!observations.IsObserved(object, v, f)) continue;
-        see(observations.Sigma(object, v, f), f > 0 && cloth.is_fixed[v] == 0);
+        see(static_cast<double>(f), observations.Sigma(object, v, f),
+            f > 0 && cloth.is_fixed[v] == 0);
       }
     }
   }
   const std::vector<char> is_moved = MovedMarkers(scene, observations);
   for (const MarkerSample& sample : observations.samples) {
-    see(observations.Sigma(sample), is_moved[sample.marker] != 0);
+    see(sample.time, observations.Sigma(sample), is_moved[sample.marker] != 0);
   }
 }
+
+// The first frame, from 1 on, by which something was observed that a parameter moves;
+// `num_frames` if nothing was.
+int FirstMovedFrame(const Scene& scene, const Observations& observations,
+                    int num_frames);
 
 }  // namespace dpe
 

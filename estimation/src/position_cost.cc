@@ -109,9 +109,10 @@ SparseRows Bend(const std::vector<Eigen::Matrix3d>& bends, int first_row,
 // Throws unless the noise of all observations is known, or that of none.
 void CheckNoise(const Scene& scene, const Observations& observations, int num_frames) {
   long num_known = 0, num_unknown = 0;
-  ForEachSigma(scene, observations, num_frames, [&](double sigma, bool is_moved) {
-    if (is_moved) (sigma > 0.0 ? num_known : num_unknown) += 1;
-  });
+  ForEachObservation(scene, observations, num_frames,
+                     [&](double /*time*/, double sigma, bool is_moved) {
+                       if (is_moved) (sigma > 0.0 ? num_known : num_unknown) += 1;
+                     });
   if (num_known > 0 && num_unknown > 0) {
     throw SceneError(
         "the noise (sigma) of some observations is given and that of others is not; "

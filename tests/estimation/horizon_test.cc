@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "dpe/estimation/estimator.h"
 #include "estimation/fit_support.h"
 #include "support/test_scenes.h"
@@ -44,6 +46,18 @@ TEST(HorizonTest, GrowingFindsWhatAllFramesAtOnceDoNot) {
       Estimate(scene, target, FromUniformStart(Horizon::kFull));
   EXPECT_TRUE(full.horizons.empty());
   EXPECT_FALSE(full.final_rms < 1e3 * grown.final_rms);  // also if there is none
+}
+
+// A capture that begins in the middle of the motion.
+TEST(HorizonTest, GrowsFromTheFirstFrameThatWasSeen) {
+  const Scene scene = FlagWithLocalStiffness();
+  Observations target = test::OwnMotion(scene, kFrames);
+  target.positions[0].leftCols(3).setConstant(std::nan(""));
+  const EstimatorSummary summary =
+      Estimate(scene, target, FromUniformStart(Horizon::kGrow));
+  ASSERT_FALSE(summary.horizons.empty());
+  EXPECT_EQ(summary.horizons[0].num_frames, 3 + 5);
+  EXPECT_LT(summary.final_rms, 1e-10);
 }
 
 TEST(HorizonTest, FewFramesNeedNoGrowing) {
