@@ -192,15 +192,16 @@ def gradient(results):
 def memory(results):
     rows = []
     for _, fields, c in select(results, "memory"):
-        limit = f"{fields['limit']} MiB" if fields["limit"] else "none"
-        cells = [grid_name(fields), count(fields["frames"]), limit]
+        limit = f"{fields['limit']} MiB" if fields["limit"] else "default"
+        cells = [grid_name(fields), count(fields["frames"]), count(fields["steps"]),
+                 limit]
         if c.get("error_occurred"):
             rows.append(cells + failure(c, 4))
             continue
         rows.append(cells + [number(c["peak_mib"]), number(c["resident_mib"]),
                              count(c["ms"]), repr(c["gradient_norm"])])
     table("Memory of a gradient, scene side, method 2",
-          ["grid", "frames", "memory limit", "beyond start, MiB", "resident, MiB", "ms",
+          ["grid", "frames", "steps per frame", "memory limit", "beyond start, MiB", "resident, MiB", "ms",
            "norm of the gradient"], rows)
 
 

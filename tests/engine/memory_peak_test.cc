@@ -103,8 +103,11 @@ TEST(MemoryPeakTest, StagesStayBelowTheLimit) {
   ExpectSameGradientWithin({32, 201, 2, IntegrationMethod::kTrBdf2}, 10 * kMiB, 80.0);
 }
 
+// Steps of delta are too long for cloths so fine (linearly_implicit_euler.h): with 4 to
+// a frame at 96 x 96 vertices, and 16 at 192 x 192, energy never rises. The states
+// between the frames take 632 MiB without a limit.
 TEST(MemoryPeakLongTest, FiveHundredFramesOfNineThousandVertices) {
-  ExpectSameGradientWithin({96, 500, 1, kLinearlyImplicit}, 512 * kMiB, 1024.0);
+  ExpectSameGradientWithin({96, 500, 4, kLinearlyImplicit}, 512 * kMiB, 1024.0);
 }
 
 TEST(MemoryPeakLongTest, SubstepsOfNineThousandVertices) {
@@ -115,7 +118,7 @@ TEST(MemoryPeakLongTest, SubstepsOfNineThousandVertices) {
 TEST(MemoryPeakLongTest, AHundredFramesOfThirtySevenThousandVertices) {
   double peak = 0.0;
   const Eigen::VectorXd gradient = GradientInChild(
-      {192, 100, 1, kLinearlyImplicit}, SimulatorOptions().memory_limit_bytes, &peak);
+      {192, 100, 16, kLinearlyImplicit}, SimulatorOptions().memory_limit_bytes, &peak);
   EXPECT_GT(gradient.norm(), 0.0);
   EXPECT_LT(peak, 4096.0);
 }

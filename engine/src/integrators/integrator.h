@@ -83,6 +83,9 @@ class Integrator {
   // would have to iterate: a new one is as cheap, and exact.
   virtual bool LeavesAdjointFactor() const { return false; }
 
+  // What to say of a rollout that left the range of finite numbers; may be empty.
+  virtual std::string DivergenceReason() const { return {}; }
+
   // Computes the free entries of the result from states.x0 and v0 (states.x1 ... point
   // to the result as well).
   virtual StepOutcome Step(ObjectSystem* system, StepSolver* solver,
