@@ -66,6 +66,12 @@ void StepSolver::UseFactor(const KeptFactor* kept, bool symmetric) {
   if (factorized_) direct_.UseFactor(kept, symmetric);
 }
 
+bool StepSolver::SolveByKept(const double* b, double* z, bool transposed) {
+  if (!factorized_ || iterative_) return false;
+  const ScopedTimer timer(context_->timings, TimedPart::kSolve);
+  return direct_.SolveByKept(b, z, transposed);
+}
+
 bool StepSolver::Solve(const double* b, double* z, bool transposed, const double* guess,
                        double accuracy) {
   const bool prepared = iterative_ && PrepareKrylov(transposed);
