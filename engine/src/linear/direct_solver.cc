@@ -86,7 +86,7 @@ bool DirectSolver::SolveByKept(const double* b, double* z, bool transposed) {
   SolveSupernodal(transposed ? factor().Transposed() : factor(), &context_->solve_work,
                   z);
   return kErrorMargin * kept_->error * ConstVector(z, n).norm() <=
-         kTarget * ConstVector(b, n).norm();
+         kAccept * ConstVector(b, n).norm();
 }
 
 bool DirectSolver::Solve(const std::vector<double>& values, const double* b, double* z,

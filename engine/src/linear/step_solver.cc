@@ -16,7 +16,7 @@ constexpr int kDirectRows = 10000;
 bool PrefersIterativeSolver(int num_rows) { return num_rows > kDirectRows; }
 
 size_t StepSolverContext::kept_bytes() {
-  return 2 * direct->structure()->num_values() * sizeof(double);
+  return direct->structure()->num_values() * sizeof(double);
 }
 
 StepSolver::StepSolver(std::shared_ptr<StepSolverContext> context)
