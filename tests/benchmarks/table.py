@@ -160,6 +160,20 @@ def forward(results):
           EXPONENTS, rows)
 
 
+def growth(results):
+    rows, series = [], Series()
+    for preset, fields, c in select(results, "growth"):
+        cells = [preset, str(fields["method"]), fields["solver"], grid_name(fields)]
+        if c.get("error_occurred"):
+            rows.append(cells + failure(c, 3))
+            continue
+        rows.append(cells + [number(c["ms_per_frame"])] +
+                    series.exponents((preset, fields["method"], fields["solver"]),
+                                     "ms_per_frame", c))
+    table("Growth, over the same fifty frames of every grid",
+          ["scene", "method", "solver", "grid", "ms per frame"] + EXPONENTS, rows)
+
+
 def forward_frame(results, preset, fields):
     """The forward figure that belongs to a gradient's, or None."""
     same = ("method", "solver", "grid")
@@ -174,19 +188,20 @@ def gradient(results):
     for preset, fields, c in select(results, "gradient"):
         cells = [preset, str(fields["method"]), fields["solver"], grid_name(fields)]
         if c.get("error_occurred"):
-            rows.append(cells + failure(c, 8))
+            rows.append(cells + failure(c, 9))
             continue
         alone = forward_frame(results, preset, fields)
         rows.append(cells + [
             number(c["rollout_ms"]), number(c["backward_ms"]),
             number(c["ms_per_frame"]), number(ratio(c["ms_per_frame"], c["rollout_ms"])),
-            number(ratio(c["ms_per_frame"], alone)), number(c["peak_mib"])] +
+            number(ratio(c["ms_per_frame"], alone)), number(c.get("first_ms")),
+            number(c["peak_mib"])] +
             series.exponents((preset, fields["method"], fields["solver"]),
                              "ms_per_frame", c))
     table("Gradient (adjoint, all stiffnesses), per frame",
           ["scene", "method", "solver", "grid", "recorded rollout, ms",
            "backward step, ms", "both, ms", "× recorded rollout", "× forward frame",
-           "memory, MiB"] + EXPONENTS, rows)
+           "first time, ms", "memory, MiB"] + EXPONENTS, rows)
 
 
 def memory(results):
@@ -279,7 +294,7 @@ def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     results = read(sys.argv[1:])
-    for write in (machine, forward, gradient, memory, jacobian, lm_iteration,
+    for write in (machine, forward, growth, gradient, memory, jacobian, lm_iteration,
                   inverse_dynamics, estimation):
         write(results)
 
