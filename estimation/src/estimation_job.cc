@@ -11,6 +11,7 @@
 #include "dpe/engine/simulator.h"
 #include "dpe/estimation/report_io.h"
 #include "dpe/estimation/trajectory_io.h"
+#include "fit_setup.h"
 
 namespace dpe {
 namespace {
@@ -23,17 +24,9 @@ SimulatorOptions OptionsFor(const EstimatorOptions& options) {
   return simulator_options;
 }
 
-Observations FirstFrames(const Observations& observations, int num_frames) {
-  Observations first;
-  for (const Eigen::MatrixXd& p : observations.positions) {
-    first.positions.push_back(
-        p.size() > 0 ? p.leftCols(std::min<int>(num_frames, p.cols())).eval() : p);
-  }
-  return first;
-}
-
 void LoadTarget(const EstimationJob& job, EstimationInput* input) {
-  input->reference = ReadTrajectoryCsv(job.target_path, input->scene, 0);
+  input->reference =
+      LoadTarget(job.target_path, job.target, &input->scene, &input->warnings);
   const int in_file = input->reference.num_frames();
   if (job.num_frames > in_file) {
     throw SceneError("--frames: " + std::to_string(job.num_frames) +
@@ -61,6 +54,48 @@ void MakeTarget(const EstimationJob& job, EstimationInput* input) {
   input->reference = ObserveAll(truth);
 }
 
+std::string TrajectoryPath(const EstimationJob& job, const std::string& output_dir) {
+  switch (job.trajectory_format) {
+    case TrajectoryFormat::kObj:
+      return output_dir + "/trajectory_*.obj";
+    case TrajectoryFormat::kPc2:
+      return output_dir + "/trajectory.pc2";
+    case TrajectoryFormat::kNpy:
+      return output_dir + "/trajectory.npy";
+    case TrajectoryFormat::kAuto:
+    case TrajectoryFormat::kCsv:
+      break;
+  }
+  return output_dir + "/trajectory.csv";
+}
+
+// Marks a quantity as estimated: of the objects of which something is estimated
+// already, of all if there are none.
+void EstimateMore(const std::string& what, Scene* scene) {
+  const auto has_settings = [](const ClothObject& cloth) {
+    return cloth.mass_mode != ParameterMode::kFixed ||
+           cloth.stiffness_mode != ParameterMode::kFixed;
+  };
+  const bool all =
+      std::none_of(scene->objects.begin(), scene->objects.end(), has_settings);
+  for (ClothObject& cloth : scene->objects) {
+    if (!all && !has_settings(cloth)) continue;
+    if (what == "damping") {
+      cloth.estimate_damping = true;
+    } else if (what == "drag") {
+      cloth.estimate_drag = true;
+    } else if (what == "initial_velocity") {
+      cloth.estimate_initial_velocity = true;
+    } else if (what == "wind") {
+      scene->estimate_wind = true;
+    } else {
+      throw SceneError("--estimate: \"" + what +
+                       "\" is not accepted; expected damping, drag, wind or "
+                       "initial_velocity, separated by commas");
+    }
+  }
+}
+
 bool HasResult(const EstimatorSummary& summary) {
   return std::isfinite(summary.final_cost);
 }
@@ -76,6 +111,7 @@ EstimationInput LoadEstimationInput(const EstimationJob& job) {
   EstimationInput input;
   input.scene = LoadScene(job.scene_path, &input.warnings);
   if (!job.settings.empty()) ApplySettings(job.settings, &input.scene);
+  for (const std::string& what : job.estimate) EstimateMore(what, &input.scene);
   if (ParameterLayout(input.scene).size() == 0) {
     throw SceneError(
         job.scene_path + ": nothing is estimated (settings \"" +
@@ -93,6 +129,7 @@ EstimationInput LoadEstimationInput(const EstimationJob& job) {
                      "; accepted are 2 or more (frame 0 is the initial state)");
   }
   input.target = FirstFrames(input.reference, input.num_frames);
+  input.target.sigma = job.sigma > 0.0 ? job.sigma : job.noise_sigma;
   if (job.noise_sigma > 0.0) {
     AddNoise(input.scene, job.noise_sigma, job.noise_seed, &input.target);
   }
@@ -142,9 +179,10 @@ std::vector<std::string> WriteResults(const EstimationJob& job,
   if (HasResult(summary)) {
     files.push_back(output_dir + "/" + JobName(job, input.scene) + "_optimized.txt");
     SaveScene(summary.scene, files.back());
-    files.push_back(output_dir + "/trajectory.csv");
-    WriteFileAtomically(files.back(),
-                        TrajectoryToCsv(validation.trajectory, summary.scene));
+    const std::vector<std::string> frames =
+        WriteTrajectory(TrajectoryPath(job, output_dir), job.trajectory_format,
+                        validation.trajectory, summary.scene);
+    files.insert(files.end(), frames.begin(), frames.end());
   }
   files.push_back(output_dir + "/report.json");
   WriteFileAtomically(files.back(), ReportToJson(job, input, summary, validation));

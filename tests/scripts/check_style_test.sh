@@ -28,8 +28,8 @@ clean_project() {
   mkdir -p "$root"
   cp "$tools/../.clang-format" "$root"
   local folder
-  for folder in . engine engine/src/forces estimation estimation/src/linear tools \
-                viewer tests tests/engine tests/estimation; do
+  for folder in . engine engine/src/forces estimation estimation/examples \
+                estimation/src/linear tools viewer tests tests/engine tests/estimation; do
     put "$folder/README.md" "What lives here."
   done
   put engine/include/dpe/engine/scene.h "int Scene();"
@@ -42,6 +42,8 @@ clean_project() {
       '#include "dpe/engine/scene.h"' '#include "linear/qr.h"' \
       "int Fit() { return Scene(); }"
   put estimation/src/linear/qr.h "int Qr();"
+  put estimation/examples/fit.cc '#include <ceres/ceres.h>' "" '#include <cstdio>' "" \
+      'int main() { std::printf("1"); }'
   put tools/fit_cloth.cc '#include <gflags/gflags.h>' "" '#include <iostream>' \
       "int main() { std::cout << 1; }"
   put viewer/window.cc '#include <GLFW/glfw3.h>' '#include <vulkan/vulkan.h>'
@@ -75,7 +77,7 @@ fi
 # shellcheck disable=SC2046
 put engine/src/long.cc $(lines 401 "//")
 refused "a very long file" "95th percentile of files is 401 lines"
-for i in 1 2 3 4 5 6 7 8 9; do
+for i in 1 2 3 4 5 6 7 8 9 10; do
   # shellcheck disable=SC2046
   put "engine/src/middling$i.cc" $(lines 126 "//")
 done

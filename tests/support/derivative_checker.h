@@ -1,48 +1,17 @@
-// The one finite-difference checker: every derivative of the project is compared with
-// central differences through it.
+// The finite-difference checker as the tests use it, with random directions.
 #ifndef DPE_TESTS_SUPPORT_DERIVATIVE_CHECKER_H_
 #define DPE_TESTS_SUPPORT_DERIVATIVE_CHECKER_H_
 
 #include <Eigen/Core>
-#include <functional>
-#include <ostream>
-#include <vector>
+
+#include "dpe/engine/derivative_checker.h"
 
 namespace dpe::test {
 
-using VectorFunction = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
-
-struct DerivativeCheck {
-  // |difference quotient - analytic| / |difference quotient|, Euclidean norms, at the
-  // step where it is least.
-  double relative_error = 0.0;
-  double step = 0.0;
-  double norm = 0.0;  // of the difference quotient
-};
-
-std::ostream& operator<<(std::ostream& out, const DerivativeCheck& check);
-
-// Compares `analytic`, claimed to be the derivative of `f` at `x` along `direction`,
-// with fourth-order central differences
-//   (8 (f(x + s d) - f(x - s d)) - (f(x + 2 s d) - f(x - 2 s d))) / (12 s).
-// The error of a difference quotient has a minimum over s between truncation and
-// rounding whose place is not known beforehand, so a range of steps is tried and the
-// best agreement reported. A wrong derivative agrees at no step.
-//
-// @param steps  values of s, in units of the direction; empty: 1e-2 ... 1e-9
-DerivativeCheck CheckDirectionalDerivative(const VectorFunction& f,
-                                           const Eigen::VectorXd& x,
-                                           const Eigen::VectorXd& direction,
-                                           const Eigen::VectorXd& analytic,
-                                           const std::vector<double>& steps = {});
-
-// The largest relative error over the columns of a Jacobian (rows: outputs of f,
-// columns: coordinates of x), each column compared as above along its unit vector
-// scaled by max(|x_j|, 1). Columns whose analytic and numeric norms are both below
-// `negligible` times the largest column count as equal.
-DerivativeCheck CheckJacobian(const VectorFunction& f, const Eigen::VectorXd& x,
-                              const Eigen::MatrixXd& analytic,
-                              double negligible = 1e-12);
+using dpe::CheckDirectionalDerivative;
+using dpe::CheckJacobian;
+using dpe::DerivativeCheck;
+using dpe::VectorFunction;
 
 // A vector of independent normal numbers from a seeded generator.
 Eigen::VectorXd RandomVector(int size, unsigned seed);
