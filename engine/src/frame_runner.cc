@@ -71,6 +71,7 @@ StepOutcome FrameRunner::Step(int step, const double* x0, const double* v0,
       {h, x0, v0_.data(), result.x1, result.v1, result.xs, result.vs}, result);
   if (outcome.ok() && !(InRange(x1) && v1.allFinite())) {
     outcome.code = RolloutStatus::Code::kNotFinite;
+    outcome.reason = integrator_->DivergenceReason();
   }
   return outcome;
 }

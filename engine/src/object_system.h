@@ -44,7 +44,7 @@ class ObjectSystem {
   bool KeepingFactorsPays() const { return !solver_context_->iterative; }
   // Numbers in the panels of one triangular factor.
   size_t factor_values() const {
-    return solver_context_->direct->structure()->num_values();
+    return solver_context_->direct->structure()->num_lower_values();
   }
 
   const ObjectParameters& parameters() const { return parameters_; }

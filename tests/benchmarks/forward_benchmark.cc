@@ -73,11 +73,32 @@ void RegisterPreset(ScenePreset preset, const std::string& name) {
   }
 }
 
+// The grids of cases.h have fewer frames the finer they are, all of them from rest: the
+// cost of a cloth in full motion needs the same frames of all.
+void RegisterGrowth() {
+  constexpr int kFrames = 51;
+  for (const GridPlan& plan : kGrids) {
+    for (const char* solver : {"cg", "auto"}) {
+      const Case c{ScenePreset::kSide,
+                   "side",
+                   IntegrationMethod::kLinearlyImplicitEuler,
+                   {plan.size, kFrames, 1},
+                   solver};
+      benchmark::RegisterBenchmark(CaseName("growth", c).c_str(),
+                                   [c](benchmark::State& state) { Forward(state, c); })
+          ->Unit(benchmark::kMillisecond)
+          ->MeasureProcessCPUTime()
+          ->Iterations(1);
+    }
+  }
+}
+
 }  // namespace
 
 void RegisterForward() {
   RegisterPreset(ScenePreset::kSide, "side");
   RegisterPreset(ScenePreset::kFlag, "flag");
+  RegisterGrowth();
 }
 
 }  // namespace dpe::bench

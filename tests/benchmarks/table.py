@@ -160,6 +160,20 @@ def forward(results):
           EXPONENTS, rows)
 
 
+def growth(results):
+    rows, series = [], Series()
+    for preset, fields, c in select(results, "growth"):
+        cells = [preset, str(fields["method"]), fields["solver"], grid_name(fields)]
+        if c.get("error_occurred"):
+            rows.append(cells + failure(c, 3))
+            continue
+        rows.append(cells + [number(c["ms_per_frame"])] +
+                    series.exponents((preset, fields["method"], fields["solver"]),
+                                     "ms_per_frame", c))
+    table("Growth, over the same fifty frames of every grid",
+          ["scene", "method", "solver", "grid", "ms per frame"] + EXPONENTS, rows)
+
+
 def forward_frame(results, preset, fields):
     """The forward figure that belongs to a gradient's, or None."""
     same = ("method", "solver", "grid")
@@ -174,33 +188,35 @@ def gradient(results):
     for preset, fields, c in select(results, "gradient"):
         cells = [preset, str(fields["method"]), fields["solver"], grid_name(fields)]
         if c.get("error_occurred"):
-            rows.append(cells + failure(c, 8))
+            rows.append(cells + failure(c, 9))
             continue
         alone = forward_frame(results, preset, fields)
         rows.append(cells + [
             number(c["rollout_ms"]), number(c["backward_ms"]),
             number(c["ms_per_frame"]), number(ratio(c["ms_per_frame"], c["rollout_ms"])),
-            number(ratio(c["ms_per_frame"], alone)), number(c["peak_mib"])] +
+            number(ratio(c["ms_per_frame"], alone)), number(c.get("first_ms")),
+            number(c["peak_mib"])] +
             series.exponents((preset, fields["method"], fields["solver"]),
                              "ms_per_frame", c))
     table("Gradient (adjoint, all stiffnesses), per frame",
           ["scene", "method", "solver", "grid", "recorded rollout, ms",
            "backward step, ms", "both, ms", "× recorded rollout", "× forward frame",
-           "memory, MiB"] + EXPONENTS, rows)
+           "first time, ms", "memory, MiB"] + EXPONENTS, rows)
 
 
 def memory(results):
     rows = []
     for _, fields, c in select(results, "memory"):
-        limit = f"{fields['limit']} MiB" if fields["limit"] else "none"
-        cells = [grid_name(fields), count(fields["frames"]), limit]
+        limit = f"{fields['limit']} MiB" if fields["limit"] else "default"
+        cells = [grid_name(fields), count(fields["frames"]), count(fields["steps"]),
+                 limit]
         if c.get("error_occurred"):
             rows.append(cells + failure(c, 4))
             continue
         rows.append(cells + [number(c["peak_mib"]), number(c["resident_mib"]),
                              count(c["ms"]), repr(c["gradient_norm"])])
     table("Memory of a gradient, scene side, method 2",
-          ["grid", "frames", "memory limit", "beyond start, MiB", "resident, MiB", "ms",
+          ["grid", "frames", "steps per frame", "memory limit", "beyond start, MiB", "resident, MiB", "ms",
            "norm of the gradient"], rows)
 
 
@@ -278,7 +294,7 @@ def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     results = read(sys.argv[1:])
-    for write in (machine, forward, gradient, memory, jacobian, lm_iteration,
+    for write in (machine, forward, growth, gradient, memory, jacobian, lm_iteration,
                   inverse_dynamics, estimation):
         write(results)
 

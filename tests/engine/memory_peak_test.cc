@@ -1,5 +1,9 @@
 // How much memory is resident at once while large gradients are computed, each in a
 // process of its own.
+//
+// Sanitizers take memory of their own: there is nothing to measure under them.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -89,8 +93,6 @@ void ExpectSameGradientWithin(const Case& c, std::size_t limit, double limited) 
   EXPECT_LT(peak, limited);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-
 constexpr IntegrationMethod kLinearlyImplicit =
     IntegrationMethod::kLinearlyImplicitEuler;
 
@@ -103,8 +105,11 @@ TEST(MemoryPeakTest, StagesStayBelowTheLimit) {
   ExpectSameGradientWithin({32, 201, 2, IntegrationMethod::kTrBdf2}, 10 * kMiB, 80.0);
 }
 
+// Steps of delta are too long for cloths so fine (linearly_implicit_euler.h): with 4 to
+// a frame at 96 x 96 vertices, and 16 at 192 x 192, energy never rises. The states
+// between the frames take 632 MiB without a limit.
 TEST(MemoryPeakLongTest, FiveHundredFramesOfNineThousandVertices) {
-  ExpectSameGradientWithin({96, 500, 1, kLinearlyImplicit}, 512 * kMiB, 1024.0);
+  ExpectSameGradientWithin({96, 500, 4, kLinearlyImplicit}, 512 * kMiB, 1024.0);
 }
 
 TEST(MemoryPeakLongTest, SubstepsOfNineThousandVertices) {
@@ -115,12 +120,13 @@ TEST(MemoryPeakLongTest, SubstepsOfNineThousandVertices) {
 TEST(MemoryPeakLongTest, AHundredFramesOfThirtySevenThousandVertices) {
   double peak = 0.0;
   const Eigen::VectorXd gradient = GradientInChild(
-      {192, 100, 1, kLinearlyImplicit}, SimulatorOptions().memory_limit_bytes, &peak);
+      {192, 100, 16, kLinearlyImplicit}, SimulatorOptions().memory_limit_bytes, &peak);
+  RecordProperty("peak_mib", std::to_string(peak));
   EXPECT_GT(gradient.norm(), 0.0);
   EXPECT_LT(peak, 4096.0);
 }
 
-#endif
-
 }  // namespace
 }  // namespace dpe::test
+
+#endif

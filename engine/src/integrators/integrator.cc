@@ -41,6 +41,18 @@ bool Integrator::SolveAdjoint(const ObjectSystem& system, StepSolver* solver) {
   return true;
 }
 
+bool Integrator::SolveAdjointByKept(const ObjectSystem& system, StepSolver* solver) {
+  free_.resize(system.pattern().num_rows());
+  last_adjoint_.resize(free_.size());
+  system.GatherFree(lambda_.data(), free_.data());
+  if (!solver->SolveByKept(free_.data(), last_adjoint_.data(), /*transposed=*/true)) {
+    last_adjoint_.clear();
+    return false;
+  }
+  system.ScatterFree(last_adjoint_.data(), lambda_.data());
+  return true;
+}
+
 void Integrator::AddParameterAdjoint(const ObjectSystem& system,
                                      const ForceState& point, double c,
                                      const double* dv, double* gp) {

@@ -83,6 +83,9 @@ class Integrator {
   // would have to iterate: a new one is as cheap, and exact.
   virtual bool LeavesAdjointFactor() const { return false; }
 
+  // What to say of a rollout that left the range of finite numbers; may be empty.
+  virtual std::string DivergenceReason() const { return {}; }
+
   // Computes the free entries of the result from states.x0 and v0 (states.x1 ... point
   // to the result as well).
   virtual StepOutcome Step(ObjectSystem* system, StepSolver* solver,
@@ -118,6 +121,9 @@ class Integrator {
                            const double* b);
   // lambda_ := A^{-T} mu for the mu (3N) that lambda_ holds; the solver is ready.
   bool SolveAdjoint(const ObjectSystem& system, StepSolver* solver);
+  // The same by a factorisation that the step itself has left, without its matrix,
+  // where that is as exact. False if not; lambda_ still holds mu then.
+  bool SolveAdjointByKept(const ObjectSystem& system, StepSolver* solver);
   // lambda_ := gv + c gx at free vertices, 0 elsewhere.
   void SetMu(const ObjectSystem& system, double c, const StepAdjoint& adjoint);
   // gp += lambda^T (c dphi/dp - (dM/dp) dv).

@@ -51,8 +51,10 @@ bool LinearlyImplicitEuler::AdjointStep(ObjectSystem* system, StepSolver* solver
                                         const StepStates& states,
                                         const StepAdjoint& adjoint) {
   SetMu(*system, states.h, adjoint);
-  system->AssembleStepMatrix(states.x0, states.v0, states.h, &solver->values());
-  if (!PrepareSolver(*system, solver) || !SolveAdjoint(*system, solver)) return false;
+  if (!SolveAdjointByKept(*system, solver)) {
+    system->AssembleStepMatrix(states.x0, states.v0, states.h, &solver->values());
+    if (!PrepareSolver(*system, solver) || !SolveAdjoint(*system, solver)) return false;
+  }
   for (int i : system->free_vertices()) {
     for (int c = 3 * i; c < 3 * i + 3; ++c) {
       adjoint.gv[c] = system->parameters().mass[i] * lambda_[c];

@@ -8,9 +8,18 @@
 //   A = M - h D - h^2 K,  Rx = h dphi/dx,  Rv = M + h (dphi/dv - D);
 // Rv follows from dr/dv0 at fixed dv, r's dependence on v1 = v0 + dv, and dv1 = dv0 +
 // d(dv).
+//
+// Stability: where springs are compressed K has positive eigenvalues, and the cloth
+// buckles. The velocity of a mode w of mass m that grows at the rate s, with m s^2 =
+// w^T K w, is multiplied by about 1 / (1 - (h s)^2) in a step. Near h s = 1, where A is
+// singular, that is without bound; beyond, A is indefinite. Implicit Euler gets along
+// with such steps, as its f follows the mode to where it has buckled; here h must stay
+// below 1 / s. With springs of a given stiffness s grows like m^(-1/2): the finer a
+// cloth of given weight is cut, the shorter the steps must be.
 #ifndef DPE_ENGINE_INTEGRATORS_LINEARLY_IMPLICIT_EULER_H_
 #define DPE_ENGINE_INTEGRATORS_LINEARLY_IMPLICIT_EULER_H_
 
+#include <string>
 #include <vector>
 
 #include "integrators/integrator.h"
@@ -22,6 +31,11 @@ class LinearlyImplicitEuler final : public Integrator {
   using Integrator::Integrator;
 
   bool LeavesAdjointFactor() const override { return true; }
+  std::string DivergenceReason() const override {
+    return "where springs are compressed its step matrix M - h D - h^2 K may be "
+           "indefinite, and steps grow without bound; use shorter steps (delta, "
+           "forwardSubSteps) or implicit_euler";
+  }
 
   StepOutcome Step(ObjectSystem* system, StepSolver* solver, const StepStates& states,
                    const StepResult& result) override;

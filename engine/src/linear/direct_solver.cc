@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "linear/gmres.h"
@@ -19,6 +20,9 @@ constexpr int kMaxKeptIterations = 12;
 // accepted when the iteration can get no further.
 constexpr double kTarget = 1e-13;
 constexpr double kAccept = 1e-12;
+// How much larger the error of a solve may be than that of another one with the same
+// factorisation.
+constexpr double kErrorMargin = 10.0;
 
 using ConstVector = Eigen::Map<const Eigen::VectorXd>;
 using Vector = Eigen::Map<Eigen::VectorXd>;
@@ -40,6 +44,7 @@ bool DirectSolver::Factorize(const std::vector<double>& values, bool symmetric) 
   is_exact_ = true;
   symmetric_ = symmetric;
   kind_ = Kind::kNone;
+  error_ = -1.0;
   if (!lu_) lu_ = std::make_unique<SupernodalLu>(context_->structure());
   if (lu_->Factorize(values.data(), symmetric, &context_->factorization_work)) {
     kind_ = Kind::kLu;
@@ -62,6 +67,7 @@ void DirectSolver::StoreFactor(KeptFactor* kept) {
   if (kind_ == Kind::kLu) {
     std::swap(kept->lu, lu_);
     kept->has_factor = true;
+    kept->error = error_;
   }
   kind_ = Kind::kNone;
 }
@@ -71,6 +77,16 @@ void DirectSolver::UseFactor(const KeptFactor* kept, bool symmetric) {
   kind_ = Kind::kKept;
   is_exact_ = false;
   symmetric_ = symmetric;
+}
+
+bool DirectSolver::SolveByKept(const double* b, double* z, bool transposed) {
+  if (kind_ != Kind::kKept || kept_->error < 0.0) return false;
+  const int n = pattern_.num_rows();
+  std::copy_n(b, n, z);
+  SolveSupernodal(transposed ? factor().Transposed() : factor(), &context_->solve_work,
+                  z);
+  return kErrorMargin * kept_->error * ConstVector(z, n).norm() <=
+         kAccept * ConstVector(b, n).norm();
 }
 
 bool DirectSolver::Solve(const std::vector<double>& values, const double* b, double* z,
@@ -114,6 +130,10 @@ bool DirectSolver::SolveByFactor(const std::vector<double>& values, double* z,
     residual = right - residual;
     const double previous = norm;
     norm = residual.norm();
+    if (cycle == 0 && kind_ == Kind::kLu && is_exact_ && norm <= kTarget * scale) {
+      error_ = std::max(norm, std::numeric_limits<double>::epsilon() * scale) /
+               Vector(z, n).norm();
+    }
     if (norm <= target) return true;
     // When a cycle gains little, rounding level is reached; the first solve gains
     // little where it is that of another matrix.

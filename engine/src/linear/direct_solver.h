@@ -71,6 +71,14 @@ class DirectSolver {
   // is while it is used.
   void UseFactor(const KeptFactor* kept, bool symmetric);
 
+  // Solves with such a one of the matrix at hand, without that matrix, where there is
+  // no doubt about its residual: |b - A z| / |z| depends on the factorisation, hardly
+  // on b, and was measured when it was made. False, with z undefined, where there is
+  // doubt.
+  //
+  // @param z  must not be b
+  bool SolveByKept(const double* b, double* z, bool transposed);
+
   // The factors of A, for many right-hand sides at once; they hold no values if A
   // itself was not factorised, or not accurately enough to do without iteration.
   SupernodalFactor ExactFactor(const std::vector<double>& values);
@@ -93,6 +101,7 @@ class DirectSolver {
   bool is_exact_ = true;  // the factorisation is that of the current matrix
   bool symmetric_ = true;
   std::unique_ptr<SupernodalLu> lu_;
+  double error_ = -1.0;  // see KeptFactor
   const KeptFactor* kept_ = nullptr;
   std::unique_ptr<PivotedLu> pivoted_lu_;
 };

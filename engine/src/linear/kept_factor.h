@@ -17,6 +17,9 @@ struct KeptFactor {
   void Clear() { has_factor = false; }
 
   bool has_factor = false;
+  // |b - A z| / |z| of the solve that it served first, or what rounding leaves of that;
+  // negative if that solve had to be iterated.
+  double error = -1.0;
   std::unique_ptr<SupernodalLu> lu;
 };
 

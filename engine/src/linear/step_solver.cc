@@ -16,7 +16,7 @@ constexpr int kDirectRows = 10000;
 bool PrefersIterativeSolver(int num_rows) { return num_rows > kDirectRows; }
 
 size_t StepSolverContext::kept_bytes() {
-  return 2 * direct->structure()->num_values() * sizeof(double);
+  return direct->structure()->num_values() * sizeof(double);
 }
 
 StepSolver::StepSolver(std::shared_ptr<StepSolverContext> context)
@@ -64,6 +64,12 @@ void StepSolver::UseFactor(const KeptFactor* kept, bool symmetric) {
   symmetric_ = symmetric;
   factorized_ = !kept->empty();
   if (factorized_) direct_.UseFactor(kept, symmetric);
+}
+
+bool StepSolver::SolveByKept(const double* b, double* z, bool transposed) {
+  if (!factorized_ || iterative_) return false;
+  const ScopedTimer timer(context_->timings, TimedPart::kSolve);
+  return direct_.SolveByKept(b, z, transposed);
 }
 
 bool StepSolver::Solve(const double* b, double* z, bool transposed, const double* guess,

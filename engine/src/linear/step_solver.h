@@ -78,6 +78,9 @@ class StepSolver {
   // same: KeepFactorization goes on with it. An empty one is no factorisation. `kept`
   // must stay as it is while it is used.
   void UseFactor(const KeptFactor* kept, bool symmetric);
+  // Solves with such a one of the very matrix, whose values are not needed; false, with
+  // z undefined, where only they could tell whether it is exact. z must not be b.
+  bool SolveByKept(const double* b, double* z, bool transposed);
 
   // z = A^{-1} b, or A^{-T} b if `transposed`; b and z may be the same array. False if
   // that cannot be solved to rounding level (to the tolerance, by the Krylov method).

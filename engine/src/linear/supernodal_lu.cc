@@ -16,6 +16,8 @@ constexpr double kMinPivot = 1e-15;
 // Remainders of symmetric matrices are made so many columns at a time.
 constexpr int kTriangleColumns = 24;
 
+constexpr double kOnes[kPanelWidth] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+
 // The factors of a diagonal block of up to kPanelWidth columns, laid out for
 // DenseKernels::solve_right: L21 := A21 U11^{-1} and U12^T := A12^T L11^{-T}.
 struct DiagonalBlock {
@@ -23,13 +25,13 @@ struct DiagonalBlock {
   double lower[kPanelWidth * kPanelWidth];  // L11^T, column-major
   double inverse_pivots[kPanelWidth];
 
-  // @param l, u  the block's first entry in the panels of L and U^T
-  bool Factorize(double* l, double* u, long ld, int width, bool symmetric) {
+  // @param block  holds both triangles, or the lower one alone if symmetric
+  bool Factorize(double* block, long ld, int width, bool symmetric) {
     double a[kPanelWidth][kPanelWidth];
     double largest = 0.0;
     for (int j = 0; j < width; ++j) {
       for (int i = 0; i < width; ++i) {
-        a[i][j] = i >= j ? l[i + j * ld] : symmetric ? l[j + i * ld] : u[j + i * ld];
+        a[i][j] = i < j && symmetric ? block[j + i * ld] : block[i + j * ld];
         largest = std::max(largest, std::abs(a[i][j]));
       }
     }
@@ -44,25 +46,38 @@ struct DiagonalBlock {
       }
     }
     for (int j = 0; j < width; ++j) {
+      for (int i = 0; i < width; ++i) block[i + j * ld] = a[i][j];
       for (int i = j; i < width; ++i) {
-        l[i + j * ld] = i == j ? 1.0 : a[i][j];
-        u[i + j * ld] = a[j][i];
         upper[j + kPanelWidth * i] = a[j][i];
         lower[j + kPanelWidth * i] = a[i][j];
       }
     }
     return true;
   }
-};
 
-constexpr double kOnes[kPanelWidth] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+  // x := L11^{-1} x for the `count` columns of x, as rows of its transpose.
+  void SolveRows(int width, int count, double* x, long ld) const {
+    constexpr int kRows = 64;
+    double rows[kRows * kPanelWidth];
+    for (; count > 0; count -= kRows, x += kRows * ld) {
+      const int m = std::min(count, kRows);
+      for (int i = 0; i < m; ++i) {
+        for (int j = 0; j < width; ++j) rows[i + kRows * j] = x[j + i * ld];
+      }
+      BestDenseKernels().solve_right(m, width, lower, kOnes, rows, kRows);
+      for (int i = 0; i < m; ++i) {
+        for (int j = 0; j < width; ++j) x[j + i * ld] = rows[i + kRows * j];
+      }
+    }
+  }
+};
 
 }  // namespace
 
 SupernodalLu::SupernodalLu(std::shared_ptr<const SupernodalStructure> structure)
     : structure_(std::move(structure)),
-      lower_(structure_->num_values()),
-      upper_(structure_->num_values()) {}
+      lower_(new double[structure_->num_lower_values()]),
+      upper_(new double[structure_->num_upper_values()]) {}
 
 bool SupernodalLu::Factorize(const double* values, bool symmetric,
                              std::vector<double>* work) {
@@ -81,52 +96,60 @@ bool SupernodalLu::Factorize(const double* values, bool symmetric,
 
 // The panels of `s` := the matrix's entries.
 void SupernodalLu::Assemble(int s, const double* values) {
-  const size_t start = structure_->value_start[s];
-  const int rows = structure_->num_rows(s);
-  double* lower = lower_.data() + start;
-  double* upper = upper_.data() + start;
-  const size_t size = structure_->value_start[s + 1] - start;
-  std::fill_n(lower, size, 0.0);
-  if (!symmetric_) std::fill_n(upper, size, 0.0);
+  const int columns = structure_->num_columns(s);
+  const long rows = structure_->num_rows(s), below = rows - columns;
+  double* const lower = lower_.get() + structure_->value_start[s];
+  double* const upper = upper_.get() + structure_->upper_start[s];
+  std::fill_n(lower, rows * columns, 0.0);
+  if (!symmetric_) std::fill_n(upper, below * columns, 0.0);
   for (int k = structure_->pair_start[s]; k < structure_->pair_start[s + 1]; ++k) {
     const SupernodalStructure::BlockPair& pair = structure_->pairs[k];
     const double* l = values + pair.lower.offset;
     const double* u = values + pair.upper.offset;
+    double* out = lower + pair.row + pair.column * rows;
     for (int c = 0; c < 3; ++c) {
-      double* l_column = lower + pair.target + c * rows;
-      double* u_column = upper + pair.target + c * rows;
-      for (int r = 0; r < 3; ++r) l_column[r] = l[r + c * pair.lower.stride];
-      if (symmetric_) continue;
-      for (int r = 0; r < 3; ++r) u_column[r] = u[c + r * pair.upper.stride];
+      for (int r = 0; r < 3; ++r) out[r + c * rows] = l[r + c * pair.lower.stride];
+    }
+    if (symmetric_ || pair.row == pair.column) continue;
+    if (pair.row < columns) {
+      out = lower + pair.column + pair.row * rows;
+      for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) out[c + r * rows] = u[c + r * pair.upper.stride];
+      }
+    } else {
+      out = upper + pair.row - columns + pair.column * below;
+      for (int c = 0; c < 3; ++c) {
+        for (int r = 0; r < 3; ++r) out[r + c * below] = u[c + r * pair.upper.stride];
+      }
     }
   }
 }
 
-// Adds those entries of the remainder of `child` whose smaller place is an own column
-// of the parent `s` to its panels: on and below the diagonal to L, on and above to U^T.
+// Adds those entries of the remainder of `child` that belong to own columns or own rows
+// of the parent `s` to its panels.
 void SupernodalLu::AddToPanels(int child, int s, const double* remainder) {
-  const int size = structure_->num_rows(child) - structure_->num_columns(child);
+  const long size = structure_->num_below(child);
   const int columns = structure_->num_columns(s);
-  const long rows = structure_->num_rows(s);
-  double* lower = lower_.data() + structure_->value_start[s];
-  double* upper = upper_.data() + structure_->value_start[s];
-  const SupernodalStructure::Run* run =
-      structure_->runs.data() + structure_->run_start[child];
-  const SupernodalStructure::Run* const end =
-      structure_->runs.data() + structure_->run_start[child + 1];
-  for (; run != end && run->place < columns; ++run) {
+  const long rows = structure_->num_rows(s), below = rows - columns;
+  double* const lower = lower_.get() + structure_->value_start[s];
+  double* const upper = upper_.get() + structure_->upper_start[s] - columns;
+  using Run = SupernodalStructure::Run;
+  const Run* const begin = structure_->runs.data() + structure_->run_start[child];
+  const Run* const end = structure_->runs.data() + structure_->run_start[child + 1];
+  for (const Run* run = begin; run != end && run->place < columns; ++run) {
     for (int k = 0; k < run->length; ++k) {
       const int j = run->first + k;
-      const double* column = remainder + static_cast<long>(j) * size;
+      const double* column = remainder + j * size;
       const double* row = remainder + j;
       double* l = lower + (run->place + k) * rows;
-      double* u = upper + (run->place + k) * rows;
-      for (const SupernodalStructure::Run* other = run; other != end; ++other) {
+      double* u = upper + (run->place + k) * below;
+      for (const Run* other = symmetric_ ? run : begin; other != end; ++other) {
         const long first = other->first;
         for (int i = 0; i < other->length; ++i) {
           l[other->place + i] += column[first + i];
         }
-        for (int i = 0; i < other->length && !symmetric_; ++i) {
+        if (symmetric_ || other->place < columns) continue;
+        for (int i = 0; i < other->length; ++i) {
           u[other->place + i] += row[(first + i) * size];
         }
       }
@@ -140,16 +163,16 @@ void SupernodalLu::MakeRemainder(int s, double* work) {
   const long rows = structure_->num_rows(s);
   const int below = static_cast<int>(rows) - columns;
   if (below == 0) return;
-  const size_t start = structure_->value_start[s] + columns;
+  const double* const lower = lower_.get() + structure_->value_start[s] + columns;
+  const double* const upper = upper_.get() + structure_->upper_start[s];
   double* const remainder = work + structure_->remainder_start[s];
   // Column by column as much of it as there is below the diagonal, if symmetric.
   const int width = symmetric_ ? kTriangleColumns : below;
   for (int j = 0; j < below; j += width) {
     const int i = symmetric_ ? j : 0;
     BestDenseKernels().subtract_product(
-        /*overwrite=*/true, below - i, std::min(width, below - j), columns,
-        lower_.data() + start + i, rows, upper_.data() + start + j, 1, rows,
-        remainder + i + static_cast<long>(j) * below, below);
+        /*overwrite=*/true, below - i, std::min(width, below - j), columns, lower + i,
+        rows, upper + j, 1, below, remainder + i + static_cast<long>(j) * below, below);
   }
   for (int c = structure_->first_child[s]; c >= 0; c = structure_->next_sibling[c]) {
     AddToRemainder(c, s, work + structure_->remainder_start[c], remainder);
@@ -162,8 +185,7 @@ void SupernodalLu::AddToRemainder(int child, int s, const double* in,
                                   double* remainder) {
   using Run = SupernodalStructure::Run;
   const int columns = structure_->num_columns(s);
-  const long below = structure_->num_rows(s) - columns;
-  const long size = structure_->num_rows(child) - structure_->num_columns(child);
+  const long below = structure_->num_below(s), size = structure_->num_below(child);
   const Run* begin = structure_->runs.data() + structure_->run_start[child];
   const Run* const end = structure_->runs.data() + structure_->run_start[child + 1];
   while (begin != end && begin->place < columns) ++begin;
@@ -185,40 +207,52 @@ bool SupernodalLu::FactorizeColumns(int s, int begin, int end) {
   const int half = (end - begin + 1) / 2;
   const int middle = begin + (half + kPanelWidth - 1) / kPanelWidth * kPanelWidth;
   if (!FactorizeColumns(s, begin, middle)) return false;
-  const long rows = structure_->num_rows(s);
-  const auto update = [&](std::vector<double>* panel,
-                          const std::vector<double>& other) {
-    double* const x = panel->data() + structure_->value_start[s];
-    const double* const y = other.data() + structure_->value_start[s];
-    BestDenseKernels().subtract_product(
-        /*overwrite=*/false, static_cast<int>(rows) - middle, end - middle,
-        middle - begin, x + middle + begin * rows, rows, y + middle + begin * rows, 1,
-        rows, x + middle + middle * rows, rows);
-  };
-  update(&lower_, upper_);
-  if (!symmetric_) update(&upper_, lower_);
+  UpdateColumns(s, begin, middle, end);
   return FactorizeColumns(s, middle, end);
 }
 
-bool SupernodalLu::FactorizePanel(int s, int begin, int end) {
-  const long rows = structure_->num_rows(s);
-  const size_t start = structure_->value_start[s] + begin * rows;
-  double* l = lower_.data() + start;
-  double* u = upper_.data() + start;
-  const int width = end - begin;
-  DiagonalBlock diagonal;
-  if (!diagonal.Factorize(l + begin, u + begin, rows, width, symmetric_)) return false;
+// Subtracts what the columns of L, and rows of U, in [begin, middle) contribute to
+// those in [middle, end).
+void SupernodalLu::UpdateColumns(int s, int begin, int middle, int end) {
+  const int columns = structure_->num_columns(s);
+  const int rows = structure_->num_rows(s), below = rows - columns;
+  const int terms = middle - begin, width = end - middle;
+  double* const lower = lower_.get() + structure_->value_start[s];
+  double* const upper = upper_.get() + structure_->upper_start[s];
+  const auto at = [&](int i, int j) { return lower + i + static_cast<long>(j) * rows; };
   const DenseKernels& kernels = BestDenseKernels();
-  const int below = static_cast<int>(rows) - end;
-  kernels.solve_right(below, width, diagonal.upper, diagonal.inverse_pivots, l + end,
-                      rows);
+  kernels.subtract_product(false, rows - middle, width, terms, at(middle, begin), rows,
+                           at(begin, middle), rows, 1, at(middle, middle), rows);
+  if (symmetric_) return;
+  kernels.subtract_product(false, width, columns - end, terms, at(middle, begin), rows,
+                           at(begin, end), rows, 1, at(middle, end), rows);
+  kernels.subtract_product(
+      false, below, width, terms, upper + static_cast<long>(begin) * below, below,
+      at(middle, begin), 1, rows, upper + static_cast<long>(middle) * below, below);
+}
+
+bool SupernodalLu::FactorizePanel(int s, int begin, int end) {
+  const int columns = structure_->num_columns(s), width = end - begin;
+  const long rows = structure_->num_rows(s), below = rows - columns;
+  double* const l = lower_.get() + structure_->value_start[s] + begin * rows;
+  double* const u = upper_.get() + structure_->upper_start[s] + begin * below;
+  double* const right = l + begin + width * rows;  // U11 beyond the diagonal block
+  DiagonalBlock diagonal;
+  if (!diagonal.Factorize(l + begin, rows, width, symmetric_)) return false;
+  const DenseKernels& kernels = BestDenseKernels();
+  kernels.solve_right(static_cast<int>(rows) - end, width, diagonal.upper,
+                      diagonal.inverse_pivots, l + end, rows);
   if (!symmetric_) {
-    kernels.solve_right(below, width, diagonal.lower, kOnes, u + end, rows);
+    diagonal.SolveRows(width, columns - end, right, rows);
+    kernels.solve_right(static_cast<int>(below), width, diagonal.lower, kOnes, u,
+                        below);
     return true;
   }
   for (int j = 0; j < width; ++j) {
     const double pivot = diagonal.upper[j + kPanelWidth * j];
-    for (long i = end + j * rows; i < (j + 1) * rows; ++i) u[i] = pivot * l[i];
+    const double* column = l + j * rows;
+    for (int i = end; i < columns; ++i) right[j + (i - end) * rows] = pivot * column[i];
+    for (long i = 0; i < below; ++i) u[i + j * below] = pivot * column[columns + i];
   }
   return true;
 }
@@ -230,8 +264,9 @@ SupernodalFactor SupernodalLu::factor() const {
   factor.row_start = structure_->row_start.data();
   factor.row_indices = structure_->rows.data();
   factor.value_start = structure_->value_start.data();
-  factor.lower = lower_.data();
-  factor.upper = upper_.data();
+  factor.upper_start = structure_->upper_start.data();
+  factor.lower = lower_.get();
+  factor.upper = upper_.get();
   return factor;
 }
 

@@ -7,15 +7,15 @@
 // large the skew part is against the symmetric one). It also serves most indefinite
 // matrices, but without that guarantee: the caller checks residuals.
 //
-// Supernode by supernode (supernodal_structure.h), with the panel of L and that of U^T
-// side by side; both have the same shape and receive the same operations with the roles
-// exchanged. With a supernode's own columns 1 and the rows below 2:
+// Supernode by supernode (supernodal_structure.h), with the panels of L and of U^T side
+// by side. With a supernode's own columns 1 and the rows below 2:
 //   [A11 A12; A21 A22] = [L11 0; L21 I] [U11 U12; 0 S],   S = A22 - L21 U12,
-// and S is the remainder that goes to the parent. Within a panel columns are split in
-// halves: the left half is factorised, the right one updated, then factorised.
+// and S is the remainder that goes to the parent. L11 and U11 share a square; L21 and
+// U12^T lie each by itself. Columns are split in halves: the left half is factorised,
+// the right one updated, then factorised.
 //
-// Of a symmetric matrix U = D L^T, D the pivots: then the panels of U^T are those of L
-// scaled, and of remainders only the lower triangle is made, which halves the work.
+// Of a symmetric matrix U = D L^T, D the pivots: then U is L scaled, and of remainders
+// only the lower triangle is made, which halves the work.
 #ifndef DPE_ENGINE_LINEAR_SUPERNODAL_LU_H_
 #define DPE_ENGINE_LINEAR_SUPERNODAL_LU_H_
 
@@ -43,19 +43,20 @@ class SupernodalLu {
   // For SolveSupernodal; valid until the next factorisation.
   SupernodalFactor factor() const;
 
-  size_t num_bytes() const { return (lower_.size() + upper_.size()) * sizeof(double); }
-
  private:
   void Assemble(int s, const double* values);
   void AddToPanels(int child, int s, const double* remainder);
   void MakeRemainder(int s, double* work);
   void AddToRemainder(int child, int s, const double* in, double* remainder);
   bool FactorizeColumns(int s, int begin, int end);
+  void UpdateColumns(int s, int begin, int middle, int end);
   bool FactorizePanel(int s, int begin, int end);
 
   std::shared_ptr<const SupernodalStructure> structure_;
   bool symmetric_ = false;
-  std::vector<double> lower_, upper_;  // panels of L and U^T
+  // Panels of L, with U11, and of U^T. Every factorisation writes them all, so they are
+  // not filled before.
+  std::unique_ptr<double[]> lower_, upper_;
 };
 
 }  // namespace dpe

@@ -12,27 +12,28 @@
 
 namespace dpe {
 
-// The arrays of a supernodal factor, see supernodal_structure.h. `lower` holds the
-// panels of L and `upper` those of U^T, each with its diagonal.
+// The arrays of a supernodal factor, see supernodal_structure.h: the panels of L (whose
+// diagonal is 1) with the own parts of U, and those of U^T.
 struct SupernodalFactor {
   int num_supernodes = 0;
   const int* first_column = nullptr;
   const int* row_start = nullptr;
   const int* row_indices = nullptr;
   const size_t* value_start = nullptr;
+  const size_t* upper_start = nullptr;
   const double* lower = nullptr;
   const double* upper = nullptr;
 
-  // The factor of A^T = U^T L^T.
+  bool is_transposed = false;  // stands for A^T = U^T L^T
+
   SupernodalFactor Transposed() const {
     SupernodalFactor transposed = *this;
-    transposed.lower = upper;
-    transposed.upper = lower;
+    transposed.is_transposed = !is_transposed;
     return transposed;
   }
 };
 
-// x := U^{-1} L^{-1} x, in the factor's own ordering. `work` is resized as needed.
+// x := A^{-1} x, in the factor's own ordering. `work` is resized as needed.
 void SolveSupernodal(const SupernodalFactor& factor, std::vector<double>* work,
                      double* x);
 

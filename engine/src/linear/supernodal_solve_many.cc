@@ -9,94 +9,115 @@
 namespace dpe {
 namespace {
 
-// One supernode's panel and what the two sweeps do with it; x is the row-major array of
-// the supernode's own columns.
+// A triangle T, of L11 or U11^T, that is T(i, j) = values[i row + j column], i >= j,
+// with ones on the diagonal if `unit`, and the rows below it.
+struct Triangle {
+  const double* values;
+  long row, column;
+  bool unit;
+  const double* below;
+  long ld;
+};
+
+// One supernode's triangle and what the two sweeps do with it; x is the row-major array
+// of the supernode's own columns.
 class PanelSolve {
  public:
-  PanelSolve(const double* values, int rows, int columns, int count)
+  PanelSolve(const Triangle& triangle, int rows, int columns, int count)
       : kernels_(BestDenseKernels()),
-        values_(values),
+        triangle_(triangle),
         rows_(rows),
         columns_(columns),
         count_(count) {}
 
-  // x := L11^{-1} x.
+  // x := T^{-1} x.
   void Forward(double* x) const {
     for (int begin = 0; begin < columns_; begin += kPanelWidth) {
       const int width = std::min(kPanelWidth, columns_ - begin);
       double* out = x + static_cast<long>(begin) * count_;
-      kernels_.subtract_product(false, count_, width, begin, x, count_, values_ + begin,
-                                1, rows_, out, count_);
-      double triangle[kPanelWidth * kPanelWidth];
+      kernels_.subtract_product(false, count_, width, begin, x, count_, At(begin, 0),
+                                triangle_.row, triangle_.column, out, count_);
+      double block[kPanelWidth * kPanelWidth];
       double inverse[kPanelWidth];
       for (int j = 0; j < width; ++j) {
         for (int i = 0; i < j; ++i) {
-          triangle[i + kPanelWidth * j] = At(begin + j, begin + i);
+          block[i + kPanelWidth * j] = *At(begin + j, begin + i);
         }
-        inverse[j] = 1.0 / At(begin + j, begin + j);
+        inverse[j] = InversePivot(begin + j);
       }
-      kernels_.solve_right(count_, width, triangle, inverse, out, count_);
+      kernels_.solve_right(count_, width, block, inverse, out, count_);
     }
   }
 
-  // below := -L21 x; `below` is row-major.
+  // below := -the rows below times x; `below` is row-major.
   void UpdateBelow(const double* x, double* below) const {
     kernels_.subtract_product(true, count_, rows_ - columns_, columns_, x, count_,
-                              values_ + columns_, 1, rows_, below, count_);
+                              triangle_.below, 1, triangle_.ld, below, count_);
   }
 
-  // x -= U12 below.
+  // x -= the transposed rows below times `below`.
   void SubtractFromBelow(const double* below, double* x) const {
     kernels_.subtract_product(false, count_, columns_, rows_ - columns_, below, count_,
-                              values_ + columns_, rows_, 1, x, count_);
+                              triangle_.below, triangle_.ld, 1, x, count_);
   }
 
-  // x := U11^{-1} x, last rows first: a solve from the right with the columns reversed.
+  // x := T^{-T} x, last rows first: a solve from the right with the columns reversed.
   void Backward(double* x) const {
     for (int end = columns_; end > 0; end -= std::min(kPanelWidth, end)) {
       const int width = std::min(kPanelWidth, end);
       const int begin = end - width;
       double* out = x + static_cast<long>(begin) * count_;
-      kernels_.subtract_product(false, count_, width, columns_ - end,
-                                x + static_cast<long>(end) * count_, count_,
-                                values_ + end + begin * rows_, rows_, 1, out, count_);
-      double triangle[kPanelWidth * kPanelWidth];
+      kernels_.subtract_product(
+          false, count_, width, columns_ - end, x + static_cast<long>(end) * count_,
+          count_, At(end, begin), triangle_.column, triangle_.row, out, count_);
+      double block[kPanelWidth * kPanelWidth];
       double inverse[kPanelWidth];
       for (int j = 0; j < width; ++j) {
         for (int i = 0; i < j; ++i) {
-          triangle[i + kPanelWidth * j] = At(end - 1 - i, end - 1 - j);
+          block[i + kPanelWidth * j] = *At(end - 1 - i, end - 1 - j);
         }
-        inverse[j] = 1.0 / At(end - 1 - j, end - 1 - j);
+        inverse[j] = InversePivot(end - 1 - j);
       }
-      kernels_.solve_right(count_, width, triangle, inverse,
+      kernels_.solve_right(count_, width, block, inverse,
                            out + static_cast<long>(width - 1) * count_, -count_);
     }
   }
 
  private:
-  double At(int i, int j) const { return values_[i + j * rows_]; }
+  const double* At(int i, int j) const {
+    return triangle_.values + i * triangle_.row + j * triangle_.column;
+  }
+  double InversePivot(int i) const { return triangle_.unit ? 1.0 : 1.0 / *At(i, i); }
 
   const DenseKernels& kernels_;
-  const double* values_;
-  long rows_;
-  int columns_, count_;
+  Triangle triangle_;
+  int rows_, columns_, count_;
 };
 
 }  // namespace
 
 void SolveSupernodalMany(const SupernodalFactor& factor, int count,
                          std::vector<double>* work, double* x) {
-  const auto panel = [&](const double* values, int s) {
-    return PanelSolve(values + factor.value_start[s],
-                      factor.row_start[s + 1] - factor.row_start[s],
-                      factor.first_column[s + 1] - factor.first_column[s], count);
+  const auto panel = [&](bool of_upper, int s) {
+    const int rows = factor.row_start[s + 1] - factor.row_start[s];
+    const int columns = factor.first_column[s + 1] - factor.first_column[s];
+    const double* lower = factor.lower + factor.value_start[s];
+    const Triangle triangle =
+        of_upper ? Triangle{lower,
+                            rows,
+                            1,
+                            false,
+                            factor.upper + factor.upper_start[s],
+                            rows - columns}
+                 : Triangle{lower, 1, rows, true, lower + columns, rows};
+    return PanelSolve(triangle, rows, columns, count);
   };
   const auto row_of = [&](int row) { return x + static_cast<long>(row) * count; };
   for (int s = 0; s < factor.num_supernodes; ++s) {
     const int columns = factor.first_column[s + 1] - factor.first_column[s];
     const int begin = factor.row_start[s] + columns, end = factor.row_start[s + 1];
     double* own = row_of(factor.first_column[s]);
-    const PanelSolve lower = panel(factor.lower, s);
+    const PanelSolve lower = panel(factor.is_transposed, s);
     lower.Forward(own);
     if (begin == end) continue;
     work->resize(static_cast<size_t>(end - begin) * count);
@@ -111,7 +132,7 @@ void SolveSupernodalMany(const SupernodalFactor& factor, int count,
     const int columns = factor.first_column[s + 1] - factor.first_column[s];
     const int begin = factor.row_start[s] + columns, end = factor.row_start[s + 1];
     double* own = row_of(factor.first_column[s]);
-    const PanelSolve upper = panel(factor.upper, s);
+    const PanelSolve upper = panel(!factor.is_transposed, s);
     if (begin < end) {
       work->resize(static_cast<size_t>(end - begin) * count);
       double* out = work->data();

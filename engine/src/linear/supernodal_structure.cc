@@ -43,10 +43,13 @@ SupernodalStructure::SupernodalStructure(const BlockPattern& pattern,
   row_start.assign(start, start + num_supernodes + 1);
   rows.assign(row, row + row_start.back());
   value_start.push_back(0);
+  upper_start.push_back(0);
   for (int s = 0; s < num_supernodes; ++s) {
     assert(num_columns(s) % 3 == 0 && num_rows(s) % 3 == 0);
     value_start.push_back(value_start.back() +
                           static_cast<size_t>(num_rows(s)) * num_columns(s));
+    upper_start.push_back(upper_start.back() +
+                          static_cast<size_t>(num_below(s)) * num_columns(s));
   }
   FindTree();
   PlaceRemainders();
@@ -94,7 +97,7 @@ void SupernodalStructure::PlaceRemainders() {
   std::vector<Interval> used;
   remainder_start.assign(num_supernodes, 0);
   for (int s = 0; s < num_supernodes; ++s) {
-    const size_t size = num_rows(s) - num_columns(s);
+    const size_t size = num_below(s);
     if (size > 0) {
       remainder_start[s] = Take(size * size, &used);
       workspace_size = std::max(workspace_size, remainder_start[s] + size * size);
@@ -115,8 +118,7 @@ void SupernodalStructure::ListPairs(const BlockPattern& pattern) {
       for (int k = pattern.block_starts()[j]; k < pattern.block_starts()[j + 1]; ++k) {
         const int i = pattern.block_rows()[k];
         if (i < j) continue;
-        pairs.push_back(
-            {pattern.Find(i, j), pattern.Find(j, i), place[i] + column * num_rows(s)});
+        pairs.push_back({pattern.Find(i, j), pattern.Find(j, i), place[i], column});
       }
     }
     pair_start.push_back(static_cast<int>(pairs.size()));

@@ -3,11 +3,12 @@
 // and where the matrix's blocks and the updates of earlier supernodes go.
 //
 // Supernode s has the columns [first_column[s], first_column[s + 1]) and the rows
-// rows[row_start[s]] ... rows[row_start[s + 1] - 1], its own columns first. A *panel*
-// is its dense column-major array of rows x columns, at value_start[s] of a factor's
-// values. The rows below its own columns are updated by it; the updates are gathered in
-// a square *remainder* and added to the parent: the supernode of the first such row
-// (multifrontal method, Duff & Reid 1983; Liu 1992).
+// rows[row_start[s]] ... rows[row_start[s + 1] - 1], its own columns first. Its
+// *panels* are dense column-major arrays: that of L, rows x columns at value_start[s],
+// which has its own part of U above the diagonal, and that of U^T, with the rows below
+// alone, at upper_start[s]. The rows below its own columns are updated by it; the
+// updates are gathered in a square *remainder* and added to the parent: the supernode
+// of the first such row (multifrontal method, Duff & Reid 1983; Liu 1992).
 //
 // The three unknowns of a node are coupled to the same nodes, so they are always in one
 // supernode, and rows come in threes.
@@ -24,11 +25,11 @@
 namespace dpe {
 
 struct SupernodalStructure {
-  // The blocks (i, j) and (j, i), i >= j, of the matrix, and the place of (i, j) in the
-  // panel of j's supernode.
+  // The blocks (i, j) and (j, i), i >= j, of the matrix, and which of the rows and
+  // columns of j's supernode they belong to.
   struct BlockPair {
     BlockSlot lower, upper;
-    int target;
+    int row, column;
   };
 
   // Consecutive rows that are consecutive among the parent's rows too.
@@ -43,11 +44,15 @@ struct SupernodalStructure {
 
   int num_columns(int s) const { return first_column[s + 1] - first_column[s]; }
   int num_rows(int s) const { return row_start[s + 1] - row_start[s]; }
-  size_t num_values() const { return value_start.back(); }
+  int num_below(int s) const { return num_rows(s) - num_columns(s); }
+  // Of all panels of L, of U^T, and both.
+  size_t num_lower_values() const { return value_start.back(); }
+  size_t num_upper_values() const { return upper_start.back(); }
+  size_t num_values() const { return num_lower_values() + num_upper_values(); }
 
   int num_supernodes = 0;
   std::vector<int> first_column, row_start, rows;
-  std::vector<size_t> value_start;
+  std::vector<size_t> value_start, upper_start;
 
   // The tree; -1 where there is none.
   std::vector<int> first_child, next_sibling;
