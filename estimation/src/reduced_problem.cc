@@ -16,8 +16,12 @@ using FreeBlock = ProblemRows::FreeBlock;
 
 class ReducedCost : public ceres::CostFunction {
  public:
-  ReducedCost(ProblemRows rows, int num_threads, Timings* timings)
-      : rows_(std::move(rows)), num_threads_(num_threads), timings_(timings) {
+  ReducedCost(ProblemRows rows, int num_threads, Timings* timings,
+              std::function<bool()> interrupted)
+      : rows_(std::move(rows)),
+        num_threads_(num_threads),
+        timings_(timings),
+        interrupted_(std::move(interrupted)) {
     set_num_residuals(rows_.num_parameters() + 1);
     for (const FreeBlock& block : rows_.free_blocks()) {
       mutable_parameter_block_sizes()->push_back(block.size);
@@ -58,6 +62,7 @@ class ReducedCost : public ceres::CostFunction {
     const bool ok = TallQr(
         rows_.chunk_rows(), rows_.num_parameters() + 1, num_threads_,
         [&](int chunk, Eigen::Ref<Eigen::MatrixXd> rows) {
+          if (interrupted_ && interrupted_()) return false;
           return rows_.EvaluateChunk(chunk, rows, &costs[chunk]);
         },
         r);
@@ -86,6 +91,7 @@ class ReducedCost : public ceres::CostFunction {
   mutable ProblemRows rows_;  // evaluating needs its memory
   int num_threads_;
   Timings* timings_;
+  std::function<bool()> interrupted_;
 };
 
 void CopyBounds(const ceres::Problem& from, const FreeBlock& block,
@@ -106,7 +112,8 @@ void CopyBounds(const ceres::Problem& from, const FreeBlock& block,
 
 std::unique_ptr<ceres::Problem> NewReducedProblem(ceres::Problem* full,
                                                   ceres::EvaluationCallback* callback,
-                                                  int num_threads, Timings* timings) {
+                                                  int num_threads, Timings* timings,
+                                                  std::function<bool()> interrupted) {
   ProblemRows rows(full);
   if (rows.num_parameters() == 0 || rows.num_rows() <= rows.num_parameters()) {
     return nullptr;
@@ -118,8 +125,9 @@ std::unique_ptr<ceres::Problem> NewReducedProblem(ceres::Problem* full,
   const std::vector<FreeBlock> blocks = rows.free_blocks();
   std::vector<double*> values;
   for (const FreeBlock& block : blocks) values.push_back(block.values);
-  reduced->AddResidualBlock(new ReducedCost(std::move(rows), num_threads, timings),
-                            nullptr, values);
+  reduced->AddResidualBlock(
+      new ReducedCost(std::move(rows), num_threads, timings, std::move(interrupted)),
+      nullptr, values);
   for (const FreeBlock& block : blocks) {
     if (block.manifold != nullptr) {
       // Ceres keeps a pointer that can be written through, and does not.
