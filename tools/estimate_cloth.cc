@@ -43,8 +43,25 @@ DEFINE_string(init, "auto",
               "scene.");
 DEFINE_double(init_perturbation, 0.0,
               "Multiply every starting value by exp(this times a normal number).");
+DEFINE_string(
+    horizon, "auto",
+    "full: fit all frames at once; grow: fit the first few, then more and "
+    "more, each from the one before; auto: grow from --init=uniform and scene "
+    "with more than 3 parameters, else full.");
+DEFINE_double(sigma, 0.0,
+              "Standard deviation (m) of the noise on each observed coordinate, for "
+              "observations that name none of their own; 0: --noise_sigma.");
+DEFINE_string(
+    loss, "none",
+    "What an observation far from the model counts: none (its square), huber, "
+    "cauchy or tukey.");
+DEFINE_double(
+    loss_scale, 0.0,
+    "Scale of --loss in standard deviations of the noise; 0: the one at which "
+    "95 % of the efficiency is kept on normal noise.");
 DEFINE_int32(max_iterations, -1,
-             "Most iterations of the solver; -1: 200 for lm, 5000 for lbfgs.");
+             "Most iterations of the solver; -1: 200 for lm, 5000 for lbfgs, on each "
+             "horizon.");
 DEFINE_double(max_seconds, 1e9, "Stop with the best so far after this many seconds.");
 DEFINE_double(noise_sigma, 0.0,
               "Standard deviation (m) of normal noise to add to the target.");
@@ -108,6 +125,22 @@ void SetInitFromFlag(EstimatorOptions* options) {
   }
 }
 
+Horizon HorizonFromFlag() {
+  if (FLAGS_horizon == "auto") return Horizon::kAuto;
+  if (FLAGS_horizon == "full") return Horizon::kFull;
+  if (FLAGS_horizon == "grow") return Horizon::kGrow;
+  Refuse("horizon", FLAGS_horizon, "auto, full or grow");
+}
+
+void SetLossFromFlags(EstimatorOptions* options) {
+  try {
+    options->loss = LossTypeFromName(FLAGS_loss);
+  } catch (const SceneError&) {
+    Refuse("loss", FLAGS_loss, "none, huber, cauchy or tukey");
+  }
+  options->loss_scale = FLAGS_loss_scale;
+}
+
 EstimationJob JobFromFlags() {
   RequireFlag("scene", FLAGS_scene, "the scene file whose parameters to estimate");
   RequireAtLeast("frames", FLAGS_frames, 0);
@@ -116,6 +149,8 @@ EstimationJob JobFromFlags() {
   RequireAtLeast("max_iterations", FLAGS_max_iterations, -1);
   RequireAtLeast("max_seconds", FLAGS_max_seconds, 0.0);
   RequireAtLeast("noise_sigma", FLAGS_noise_sigma, 0.0);
+  RequireAtLeast("sigma", FLAGS_sigma, 0.0);
+  RequireAtLeast("loss_scale", FLAGS_loss_scale, 0.0);
   RequireAtLeast("threads", FLAGS_threads, 1);
   RequireAtLeast("memory_limit", FLAGS_memory_limit, 0);
   EstimationJob job;
@@ -130,6 +165,9 @@ EstimationJob JobFromFlags() {
   job.options.solver = SolverFromFlag();
   job.options.jacobian = JacobianFromFlag();
   SetInitFromFlag(&job.options);
+  job.sigma = FLAGS_sigma;
+  job.options.horizon = HorizonFromFlag();
+  SetLossFromFlags(&job.options);
   job.options.init_perturbation = FLAGS_init_perturbation;
   job.options.seed = FLAGS_seed;
   job.options.max_iterations = FLAGS_max_iterations;

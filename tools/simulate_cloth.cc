@@ -19,8 +19,12 @@
 
 DEFINE_string(scene, "", "Scene file to simulate (required).");
 DEFINE_string(output, "",
-              "CSV file to write (required): frame,vertex,x,y,z with a header line, as "
-              "estimate_cloth --target reads it.");
+              "File to write (required), in a format that estimate_cloth --target "
+              "reads. For OBJ files, one per frame, a name with a '*' that becomes the "
+              "number of the frame: frames/cloth_*.obj.");
+DEFINE_string(format, "auto",
+              "csv (frame,vertex,x,y,z), obj, pc2 (point cache, 7 digits), npy (NumPy, "
+              "frames x vertices x 3), or auto: by the end of --output, else csv.");
 DEFINE_int32(frames, 0,
              "Number of frames, the initial state included; 0: what the scene says.");
 DEFINE_string(
@@ -63,7 +67,7 @@ class StepProgress {
 
 Scene SceneFromFlags() {
   RequireFlag("scene", FLAGS_scene, "the scene file to simulate");
-  RequireFlag("output", FLAGS_output, "the CSV file to write");
+  RequireFlag("output", FLAGS_output, "the file to write");
   RequireAtLeast("frames", FLAGS_frames, 0);
   RequireAtLeast("delta", FLAGS_delta, 0.0);
   RequireAtLeast("steps_per_frame", FLAGS_steps_per_frame, 0);
@@ -81,12 +85,29 @@ Scene SceneFromFlags() {
   return scene;
 }
 
+TrajectoryFormat FormatFromFlag() {
+  try {
+    return TrajectoryFormatFromName(FLAGS_format);
+  } catch (const SceneError& error) {
+    throw SceneError(std::string("--") + error.what());
+  }
+}
+
+// "7 frames to out.csv" or "7 frames to a_0000.obj ... a_0006.obj"
+std::string Written(const std::vector<std::string>& files, int frames) {
+  std::string text = std::to_string(frames) + " frames to " + files.front();
+  if (files.size() > 1) text += " ... " + files.back();
+  return text;
+}
+
 int Main() {
   const Scene scene = SceneFromFlags();
+  const TrajectoryFormat format = FormatFromFlag();
   UseOneBlasThread();
   SimulatorOptions options;
   options.num_threads = FLAGS_threads;
   const int frames = FLAGS_frames > 0 ? FLAGS_frames : scene.num_frames;
+  CheckTrajectoryOutput(FLAGS_output, format, frames);
   CatchInterrupts();
   StepProgress progress(static_cast<long>(frames - 1) * scene.steps_per_frame *
                         scene.objects.size());
@@ -104,13 +125,14 @@ int Main() {
       std::chrono::steady_clock::now() - start;
   progress.Clear();
   // Frames before a failure are worth having: they show how it came about.
-  WriteFileAtomically(FLAGS_output, TrajectoryToCsv(trajectory, scene));
+  const std::vector<std::string> files =
+      WriteTrajectory(FLAGS_output, format, trajectory, scene);
   if (!trajectory.status.ok()) {
     std::cerr << "simulate_cloth: error: " << trajectory.status.Message() << "\n"
               << "The frames before that were written to " << FLAGS_output << "\n";
     return trajectory.status.code == RolloutStatus::Code::kInterrupted ? 2 : 3;
   }
-  std::cout << "Wrote " << frames << " frames to " << FLAGS_output << "\n";
+  std::cout << "Wrote " << Written(files, frames) << "\n";
   if (print_times) std::cout << timings.Table(elapsed.count(), "set-up");
   return 0;
 }
@@ -126,7 +148,8 @@ int main(int argc, char** argv) {
       "codes: 0 done, 1 bad flags or input, 2 stopped by Ctrl-C, 3 the simulation "
       "failed "
       "(the frames before that are written).",
-      "--scene FILE --output FILE [--frames N] [--integrator METHOD] [--delta S]",
+      "--scene FILE --output FILE [--format F] [--frames N] [--integrator METHOD] "
+      "[--delta S]",
       __FILE__};
   return dpe::tools::RunMain(argc, argv, program, dpe::tools::Main);
 }

@@ -50,7 +50,7 @@ Elements StiffnessElements(const ClothObject& object) {
   return elements;
 }
 
-Elements VelocityElements(const ClothObject& object) {
+Elements StateElements(const ClothObject& object) {
   Elements elements;
   for (char is_fixed : object.is_fixed) {
     elements.is_active.insert(elements.is_active.end(), 3, !is_fixed);
@@ -97,10 +97,16 @@ Eigen::VectorXd ElementValues(const Scene& scene, const ParameterBlock& block) {
       return Eigen::VectorXd::Constant(1, object.drag_coefficient);
     case ParameterKind::kInitialVelocity:
       return object.velocities;
+    case ParameterKind::kInitialPosition:
+      return object.positions;
     case ParameterKind::kWind:
       break;
   }
   return {};
+}
+
+bool IsOf(int segment, const ParameterBlock& block) {
+  return block.segment == -1 || block.segment == segment;
 }
 
 void SetElement(const ParameterBlock& block, int element, double value, Scene* scene) {
@@ -125,6 +131,9 @@ void SetElement(const ParameterBlock& block, int element, double value, Scene* s
     case ParameterKind::kInitialVelocity:
       object->velocities[element] = value;
       break;
+    case ParameterKind::kInitialPosition:
+      object->positions[element] = value;
+      break;
     case ParameterKind::kWind:
       break;
   }
@@ -146,6 +155,8 @@ std::string ParameterKindName(ParameterKind kind) {
       return "wind";
     case ParameterKind::kInitialVelocity:
       return "initial velocity";
+    case ParameterKind::kInitialPosition:
+      return "initial position";
   }
   return "";
 }
@@ -163,12 +174,15 @@ std::string ParameterKindUnit(ParameterKind kind) {
     case ParameterKind::kWind:
     case ParameterKind::kInitialVelocity:
       return "m/s";
+    case ParameterKind::kInitialPosition:
+      return "m";
   }
   return "";
 }
 
 bool ParameterKindIsPositive(ParameterKind kind) {
-  return kind != ParameterKind::kWind && kind != ParameterKind::kInitialVelocity;
+  return kind != ParameterKind::kWind && kind != ParameterKind::kInitialVelocity &&
+         kind != ParameterKind::kInitialPosition;
 }
 
 ParameterLayout::ParameterLayout(const Scene& scene) {
@@ -207,7 +221,11 @@ ParameterLayout::ParameterLayout(const Scene& scene) {
     }
     if (object.estimate_initial_velocity) {
       add(ParameterKind::kInitialVelocity, i, ParameterMode::kLocal,
-          VelocityElements(object));
+          StateElements(object));
+    }
+    if (object.estimate_initial_position) {
+      add(ParameterKind::kInitialPosition, i, ParameterMode::kLocal,
+          StateElements(object));
     }
   }
   if (scene.estimate_wind && any_feels_wind) {
@@ -215,10 +233,19 @@ ParameterLayout::ParameterLayout(const Scene& scene) {
   }
 }
 
-Eigen::VectorXd ParameterLayout::Extract(const Scene& scene) const {
+ParameterLayout::ParameterLayout(std::vector<ParameterBlock> blocks)
+    : blocks_(std::move(blocks)) {
+  for (ParameterBlock& block : blocks_) {
+    block.offset = size_;
+    size_ += block.size;
+  }
+}
+
+Eigen::VectorXd ParameterLayout::Extract(const Scene& scene, int segment) const {
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(size_);
   Eigen::VectorXd count = Eigen::VectorXd::Zero(size_);
   for (const ParameterBlock& block : blocks_) {
+    if (!IsOf(segment, block)) continue;
     const Eigen::VectorXd values = ElementValues(scene, block);
     for (size_t e = 0; e < block.element_to_local.size(); ++e) {
       if (block.element_to_local[e] < 0) continue;
@@ -246,9 +273,11 @@ bool ParameterLayout::Represents(const Scene& scene, int b) const {
   return true;
 }
 
-void ParameterLayout::Insert(const Eigen::VectorXd& parameters, Scene* scene) const {
+void ParameterLayout::Insert(const Eigen::VectorXd& parameters, Scene* scene,
+                             int segment) const {
   assert(parameters.size() == size_);
   for (const ParameterBlock& block : blocks_) {
+    if (!IsOf(segment, block)) continue;
     for (size_t e = 0; e < block.element_to_local.size(); ++e) {
       if (block.element_to_local[e] < 0) continue;
       SetElement(block, static_cast<int>(e),

@@ -124,6 +124,18 @@ std::string SettingsString(const Scene& scene) {
   return settings.substr(0, last_estimated);
 }
 
+Eigen::VectorXd RestLengths(const ClothObject& object) {
+  if (object.rest_length.size() > 0) return object.rest_length;
+  Eigen::VectorXd lengths(object.num_springs());
+  for (int s = 0; s < object.num_springs(); ++s) {
+    const auto [a, b] = object.springs[s];
+    lengths[s] =
+        (object.positions.segment<3>(3 * a) - object.positions.segment<3>(3 * b))
+            .norm();
+  }
+  return lengths;
+}
+
 std::vector<int> SpringGroups(const ClothObject& object) {
   if (!object.spring_group.empty()) return object.spring_group;
   std::vector<int> groups(object.springs.size(), 0);

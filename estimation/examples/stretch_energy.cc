@@ -26,16 +26,6 @@ constexpr int kNumFrames = 60;
 constexpr double kSigma = 1e-3;  // J, of a measurement
 constexpr double kTolerance = 1e-6;
 
-Eigen::VectorXd RestLengths(const ClothObject& cloth) {
-  Eigen::VectorXd lengths(cloth.num_springs());
-  for (int s = 0; s < cloth.num_springs(); ++s) {
-    const auto& [a, b] = cloth.springs[s];
-    lengths[s] =
-        (cloth.positions.segment<3>(3 * a) - cloth.positions.segment<3>(3 * b)).norm();
-  }
-  return lengths;
-}
-
 // [stretch_energy]
 // Simulated minus measured energy of all springs at one frame, in standard deviations:
 //

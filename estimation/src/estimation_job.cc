@@ -11,6 +11,7 @@
 #include "dpe/engine/simulator.h"
 #include "dpe/estimation/report_io.h"
 #include "dpe/estimation/trajectory_io.h"
+#include "fit_setup.h"
 
 namespace dpe {
 namespace {
@@ -21,15 +22,6 @@ SimulatorOptions OptionsFor(const EstimatorOptions& options) {
   simulator_options.num_threads = options.num_threads;
   simulator_options.interrupted = options.interrupted;
   return simulator_options;
-}
-
-Observations FirstFrames(const Observations& observations, int num_frames) {
-  Observations first;
-  for (const Eigen::MatrixXd& p : observations.positions) {
-    first.positions.push_back(
-        p.size() > 0 ? p.leftCols(std::min<int>(num_frames, p.cols())).eval() : p);
-  }
-  return first;
 }
 
 void LoadTarget(const EstimationJob& job, EstimationInput* input) {
@@ -93,6 +85,7 @@ EstimationInput LoadEstimationInput(const EstimationJob& job) {
                      "; accepted are 2 or more (frame 0 is the initial state)");
   }
   input.target = FirstFrames(input.reference, input.num_frames);
+  input.target.sigma = job.sigma > 0.0 ? job.sigma : job.noise_sigma;
   if (job.noise_sigma > 0.0) {
     AddNoise(input.scene, job.noise_sigma, job.noise_seed, &input.target);
   }

@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <random>
 #include <sstream>
 
 #include "dpe/engine/parameters.h"
-#include "dpe/estimation/trajectory_problem.h"
+#include "fit_problem.h"
 #include "fit_setup.h"
+#include "horizon.h"
 #include "optimizers.h"
 #include "starting_point.h"
 #include "stop_control.h"
@@ -25,32 +25,17 @@ class Fit {
   Fit(const Scene& scene, const Observations& observations,
       const EstimatorOptions& options)
       : scene_(scene),
+        blank_(WithoutEstimatedValues(scene)),
         options_(options),
-        observations_(FirstFrames(
-            observations, NumFramesToFit(scene, observations, options.num_frames))),
-        stop_(options.max_seconds, options.interrupted) {
-    const Scene blank = WithoutEstimatedValues(scene);
-    summary_.num_frames = observations_.num_frames();
-    TrajectoryCosts costs =
-        MakePositionCosts(blank, observations_, summary_.num_frames);
-    if (costs.empty()) {
-      throw SceneError(
-          "no free vertex of an estimated object is observed after frame 0");
-    }
-    TrajectoryEvaluatorOptions evaluator_options;
-    evaluator_options.jacobian = options.jacobian;
-    evaluator_options.num_threads = options.num_threads;
-    evaluator_options.memory_limit_bytes = options.memory_limit_bytes;
-    evaluator_options.timings = options.timings;
-    evaluator_options.interrupted = [this] { return stop_.Poll(); };
-    problem_ =
-        std::make_unique<TrajectoryProblem>(blank, std::move(costs), evaluator_options);
-    rms_scale_ = std::make_unique<RmsScale>(*evaluator()->simulator(), observations_);
-    context_.problem = problem_.get();
+        stop_(options.max_seconds, options.interrupted),
+        fit_(blank_, observations,
+             NumFramesToFit(scene, observations, options.num_frames), options_,
+             &stop_) {
+    context_.fit = &fit_;
     context_.options = &options_;
     context_.stop = &stop_;
-    context_.converged_cost = rms_scale_->CostOf(options.rms_tolerance);
-    context_.rms_of_cost = [this](double cost) { return rms_scale_->Rms(cost); };
+    summary_.num_frames = fit_.num_frames();
+    summary_.initial_cost = std::numeric_limits<double>::quiet_NaN();
   }
 
   EstimatorSummary Run() {
@@ -66,37 +51,30 @@ class Fit {
   }
 
  private:
-  TrajectoryEvaluator* evaluator() { return problem_->evaluator(); }
+  TrajectoryEvaluator* evaluator() { return fit_.evaluator(); }
+  TrajectoryProblem* problem() { return fit_.problem(); }
 
   bool HasFewParameters() {
     return evaluator()->num_parameters() <= options_.max_checked_parameters;
   }
 
   void ChooseSolver() {
-    const double bytes = 8.0 * evaluator()->num_residuals() *
-                         static_cast<double>(evaluator()->num_parameters());
-    const bool fits = bytes <= options_.max_lm_jacobian_bytes;
-    std::ostringstream reason;
-    reason.precision(3);
-    if (options_.solver == SolverType::kAuto) {
-      use_lm_ = fits;
-      reason << "auto: the Jacobian of " << evaluator()->num_residuals()
-             << " residuals by " << evaluator()->num_parameters()
-             << " parameters takes " << bytes / 1e6 << " MB, "
-             << (fits ? "within" : "above") << " the limit of "
-             << options_.max_lm_jacobian_bytes / 1e6 << " MB for LM";
-    } else {
-      use_lm_ = options_.solver == SolverType::kLevenbergMarquardt;
-      reason << "asked for";
-    }
+    const SolverChoice choice = dpe::ChooseSolver(*evaluator(), options_);
+    use_lm_ = choice.is_lm;
     summary_.solver = use_lm_ ? "lm" : "lbfgs";
-    summary_.solver_reason = reason.str();
+    summary_.solver_reason = choice.reason;
   }
 
   // Finds a start that can be simulated and makes it the current point.
   bool Start() {
-    start_ = FindStartingPoint(scene_, observations_, options_, &stop_, evaluator());
+    start_ =
+        FindStartingPoint(scene_, fit_.observations(), options_, &stop_, evaluator());
     TryStart();
+    if (start_.ok) {
+      summary_.initial_cost = evaluator()->cost();
+      summary_.initial_rms = fit_.best_rms();
+    }
+    if (ShouldGrow()) Grow();
     if (!start_.ok && HasFewParameters() && start_.init != "screen" &&
         !stop_.stopped()) {
       summary_.notes.push_back("the starting point (" + start_.init +
@@ -106,8 +84,10 @@ class Fit {
       TryStart();
     }
     if (!start_.ok) return false;
-    summary_.initial_cost = evaluator()->cost();
-    summary_.initial_rms = rms_scale_->Rms(summary_.initial_cost);
+    if (!std::isfinite(summary_.initial_cost)) {
+      summary_.initial_cost = evaluator()->cost();
+      summary_.initial_rms = fit_.best_rms();
+    }
     summary_.jacobian = use_lm_ ? evaluator()->JacobianMethodName() : "gradient";
     return true;
   }
@@ -119,8 +99,38 @@ class Fit {
     if (!start_.ok) return;
     PerturbStart();
     NormaliseStart();
-    problem_->set_coordinates(start_.coordinates);
+    problem()->set_coordinates(start_.coordinates);
     start_.ok = evaluator()->Evaluate(start_.coordinates);
+    start_.message = evaluator()->message();
+  }
+
+  // A start from inverse dynamics or the screen has seen the motion; a handful of
+  // parameters is checked against trial values afterwards.
+  bool ShouldGrow() {
+    if (options_.horizon != Horizon::kAuto) {
+      return options_.horizon == Horizon::kGrow;
+    }
+    return use_lm_ && !HasFewParameters() &&
+           (start_.init == "uniform" || start_.init == "scene");
+  }
+
+  void Grow() {
+    if (start_.coordinates.size() == 0 || fit_.IsAtRounding()) return;
+    const GrownHorizon grown =
+        GrowHorizon(blank_, fit_.observations(), start_.coordinates, &context_);
+    summary_.horizons = grown.stages;
+    summary_.evaluations += grown.num_rollouts;
+    summary_.jacobian_evaluations += grown.num_derivative_passes;
+    context_.first_iteration = context_.num_iterations;
+    if (!grown.ok) return;
+    // What grew from a start that can be simulated has to be better than it.
+    problem()->set_coordinates(grown.coordinates);
+    const bool start_was_ok = start_.ok;
+    start_.ok = evaluator()->Evaluate(grown.coordinates) || start_was_ok;
+    if (start_was_ok) {
+      problem()->set_coordinates(evaluator()->best_coordinates());
+      evaluator()->Evaluate(evaluator()->best_coordinates());
+    }
     start_.message = evaluator()->message();
   }
 
@@ -141,7 +151,7 @@ class Fit {
     if (is_done && options_.init_perturbation == 0.0) return;
     Eigen::VectorXd parameters = evaluator()->map().ToParameters(start_.coordinates);
     const std::vector<std::string> notes =
-        NormaliseScale(scene_, problem_->layout(), FreeMass(scene_), &parameters);
+        NormaliseScale(scene_, problem()->layout(), FreeMass(scene_), &parameters);
     if (notes.empty()) return;
     if (!is_done) {
       summary_.notes.insert(summary_.notes.end(), notes.begin(), notes.end());
@@ -165,16 +175,21 @@ class Fit {
   }
 
   void Optimise() {
-    if (evaluator()->cost() > context_.converged_cost) {
+    if (!fit_.IsAtRounding()) {
       Minimise();
       return;
     }
-    IterationReport report;
-    report.cost = evaluator()->cost();
-    context_.Report(report);
+    if (context_.num_iterations == 0) {
+      IterationReport report;
+      report.cost = evaluator()->cost();
+      context_.Report(report);
+    }
     summary_.termination = Termination::kConverged;
     summary_.message =
-        "the starting point is the answer to the level of rounding (rms_tolerance)";
+        context_.num_iterations == 0
+            ? "the starting point is the answer to the level of rounding "
+              "(rms_tolerance)"
+            : "the error has fallen to the level of rounding (rms_tolerance)";
   }
 
   void Minimise() {
@@ -188,14 +203,14 @@ class Fit {
   // minimum or a plateau is not taken for the answer.
   void CheckForBetterBasins() {
     for (int round = 0; round < kMaxBasins && HasFewParameters(); ++round) {
-      const double cost_before = evaluator()->best_cost();
-      if (!summary_.usable() || cost_before <= context_.converged_cost) return;
+      const double rms_before = fit_.best_rms();
+      if (!summary_.usable() || fit_.IsAtRounding()) return;
       const Eigen::VectorXd better = FindBetterTrialPoint(&stop_, evaluator());
       if (better.size() == 0) return;
-      problem_->set_coordinates(better);
+      problem()->set_coordinates(better);
       Minimise();
       std::ostringstream note;
-      note << "the fit had converged to RMS " << rms_scale_->Rms(cost_before)
+      note << "the fit had converged to RMS " << rms_before
            << " m; log-spaced trial values showed a better basin, from which it was "
               "repeated";
       summary_.notes.push_back(note.str());
@@ -206,27 +221,26 @@ class Fit {
     const bool has_result = evaluator()->best_coordinates().size() > 0;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     summary_.parameters = evaluator()->map().ToParameters(
-        has_result ? evaluator()->best_coordinates() : problem_->coordinates());
+        has_result ? evaluator()->best_coordinates() : problem()->coordinates());
     // Steps of the optimiser may have moved along the scale, which costs nothing.
-    NormaliseScale(scene_, problem_->layout(), FreeMass(scene_), &summary_.parameters);
+    NormaliseScale(scene_, problem()->layout(), FreeMass(scene_), &summary_.parameters);
     summary_.final_cost = has_result ? evaluator()->best_cost() : nan;
-    summary_.final_rms = rms_scale_->Rms(summary_.final_cost);
+    summary_.final_rms = has_result ? fit_.best_rms() : nan;
     if (!has_result) summary_.initial_cost = summary_.initial_rms = nan;
     summary_.iterations = context_.num_iterations;
-    summary_.evaluations = evaluator()->num_rollouts();
-    summary_.jacobian_evaluations = evaluator()->num_derivative_passes();
+    summary_.evaluations += evaluator()->num_rollouts();
+    summary_.jacobian_evaluations += evaluator()->num_derivative_passes();
     summary_.scene = scene_;
-    problem_->layout().Insert(summary_.parameters, &summary_.scene);
-    summary_.blocks = MakeEstimatedBlocks(problem_->layout(), summary_.parameters);
+    problem()->layout().Insert(summary_.parameters, &summary_.scene);
+    summary_.blocks = MakeEstimatedBlocks(problem()->layout(), summary_.parameters);
     summary_.wall_time_s = stop_.Seconds();
   }
 
   const Scene& scene_;
+  const Scene blank_;  // without the values of what is estimated
   const EstimatorOptions options_;
-  const Observations observations_;
   StopControl stop_;
-  std::unique_ptr<TrajectoryProblem> problem_;
-  std::unique_ptr<RmsScale> rms_scale_;
+  FitProblem fit_;
   OptimizerContext context_;
   StartingPoint start_;
   EstimatorSummary summary_;

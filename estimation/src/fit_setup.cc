@@ -7,43 +7,18 @@
 #include <utility>
 
 #include "dpe/engine/parameters.h"
+#include "frame_interpolation.h"
 
 namespace dpe {
-namespace {
-
-// Observations of what no parameter moves: fixed vertices and frame 0.
-Observations WithoutFreeVertices(const Scene& scene, Observations observations) {
-  for (size_t object = 0; object < observations.positions.size(); ++object) {
-    Eigen::MatrixXd& positions = observations.positions[object];
-    if (positions.size() == 0) continue;
-    for (int v = 0; v < positions.rows() / 3; ++v) {
-      if (scene.objects[object].is_fixed[v]) continue;
-      positions.block(3 * v, 1, 3, positions.cols() - 1)
-          .setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
-  }
-  return observations;
-}
-
-// The initial state, held, with fixed vertices on their paths.
-Eigen::MatrixXd PrescribedPositions(const ClothObject& cloth, int num_frames) {
-  Eigen::MatrixXd positions = cloth.positions.replicate(1, num_frames);
-  for (const PrescribedPath& path : cloth.prescribed_paths) {
-    const int last = static_cast<int>(path.positions.cols()) - 1;
-    for (int f = 0; f < num_frames; ++f) {
-      positions.col(f).segment<3>(3 * path.vertex) =
-          path.positions.col(std::min(f, last));
-    }
-  }
-  return positions;
-}
-
-}  // namespace
-
 Scene WithoutEstimatedValues(const Scene& scene) {
   const ParameterLayout layout(scene);
   Eigen::VectorXd neutral = Eigen::VectorXd::Zero(layout.size());
   for (const ParameterBlock& block : layout.blocks()) {
+    if (block.kind == ParameterKind::kInitialPosition) {
+      // There is no neutral shape: where the motion starts to be looked for.
+      neutral.segment(block.offset, block.size) =
+          layout.Extract(scene).segment(block.offset, block.size);
+    }
     if (!ParameterKindIsPositive(block.kind)) continue;
     neutral.segment(block.offset, block.size).setOnes();
   }
@@ -87,7 +62,7 @@ Observations FirstFrames(const Observations& observations, int num_frames) {
   cut(&first.positions);
   cut(&first.sigmas);
   const auto is_late = [num_frames](const MarkerSample& sample) {
-    return sample.time > num_frames - 1;
+    return !IsWithinFrames(sample.time, num_frames);
   };
   first.samples.erase(
       std::remove_if(first.samples.begin(), first.samples.end(), is_late),
@@ -95,27 +70,26 @@ Observations FirstFrames(const Observations& observations, int num_frames) {
   return first;
 }
 
-RmsScale::RmsScale(const Simulator& simulator, const Observations& observations) {
-  const Scene& scene = simulator.scene();
-  const int num_frames = observations.num_frames();
-  const Observations unmoved = WithoutFreeVertices(scene, observations);
-  Trajectory prescribed;
-  long num_unmoved = 0;
-  for (int object = 0; object < static_cast<int>(scene.objects.size()); ++object) {
-    prescribed.positions.emplace_back();
-    if (!simulator.is_simulated(object)) continue;
-    num_positions_ += static_cast<double>(observations.NumObserved(object));
-    num_unmoved += unmoved.NumObserved(object);
-    prescribed.positions.back() =
-        PrescribedPositions(scene.objects[object], num_frames);
+double CostOfRms(const Scene& scene, const Observations& observations, double rms) {
+  double sum = 0.0;  // of squared weights
+  const auto add = [&sum](double sigma) {
+    sum += sigma > 0.0 ? 1.0 / (sigma * sigma) : 1.0;
+  };
+  for (int object = 0; object < static_cast<int>(observations.positions.size());
+       ++object) {
+    if (!ParameterLayout::ObjectIsEstimated(scene, object)) continue;
+    for (int f = 0; f < observations.positions[object].cols(); ++f) {
+      for (int v = 0; v < scene.objects[object].num_vertices(); ++v) {
+        if (observations.IsObserved(object, v, f)) {
+          add(observations.Sigma(object, v, f));
+        }
+      }
+    }
   }
-  if (num_unmoved == 0) return;
-  const double rms = RmsPositionError(prescribed, unmoved, num_frames);
-  constant_square_sum_ = rms * rms * static_cast<double>(num_unmoved);
-}
-
-double RmsScale::Rms(double cost) const {
-  return std::sqrt((2.0 * cost + constant_square_sum_) / num_positions_);
+  for (const MarkerSample& sample : observations.samples) {
+    add(observations.Sigma(sample));
+  }
+  return 0.5 * rms * rms * sum;
 }
 
 }  // namespace dpe

@@ -1,10 +1,9 @@
 // What a fit is set up from: the scene without what it must not know, the frames, and
-// how costs translate to RMS errors.
+// how small an error is no error.
 #ifndef DPE_ESTIMATION_FIT_SETUP_H_
 #define DPE_ESTIMATION_FIT_SETUP_H_
 
 #include "dpe/engine/scene.h"
-#include "dpe/engine/simulator.h"
 #include "dpe/estimation/observations.h"
 
 namespace dpe {
@@ -19,22 +18,8 @@ int NumFramesToFit(const Scene& scene, const Observations& observations, int ask
 
 Observations FirstFrames(const Observations& observations, int num_frames);
 
-// Translates position costs (1/2 sum of squares over free vertices after frame 0) to
-// the RMS error over everything observed, in which fixed vertices and frame 0 count
-// too.
-class RmsScale {
- public:
-  // Counts the objects that `simulator` simulates.
-  RmsScale(const Simulator& simulator, const Observations& observations);
-
-  double Rms(double cost) const;  // m
-  // The cost at which free vertices alone contribute `rms` (m).
-  double CostOf(double rms) const { return 0.5 * rms * rms * num_positions_; }
-
- private:
-  double num_positions_ = 0.0;
-  double constant_square_sum_ = 0.0;  // m^2, of what no parameter moves
-};
+// The cost of position residuals if every observation were `rms` (m) off.
+double CostOfRms(const Scene& scene, const Observations& observations, double rms);
 
 }  // namespace dpe
 

@@ -48,7 +48,7 @@ class InverseDynamics {
     }
     FillUndetermined();
     NormaliseGauges();
-    EstimateInitialVelocities();
+    EstimateInitialStates();
     ClampToPositive();
     result_.parameters = p_;
     result_.ok = p_.allFinite();
@@ -226,14 +226,20 @@ class InverseDynamics {
     }
   }
 
-  void EstimateInitialVelocities() {
+  void EstimateInitialStates() {
     for (const ParameterBlock& block : layout_.blocks()) {
-      if (block.kind != ParameterKind::kInitialVelocity) continue;
-      const Eigen::VectorXd velocity =
-          equations_.motion(block.object).InitialVelocity();
+      Eigen::VectorXd state;
+      if (block.kind == ParameterKind::kInitialVelocity) {
+        state = equations_.motion(block.object).InitialVelocity();
+      } else if (block.kind == ParameterKind::kInitialPosition) {
+        // The motion is taken to start where the scene says.
+        state = scene_.objects[block.object].positions;
+      } else {
+        continue;
+      }
       for (size_t e = 0; e < block.element_to_local.size(); ++e) {
         const int local = block.element_to_local[e];
-        if (local >= 0) p_[block.offset + local] = velocity[e];
+        if (local >= 0) p_[block.offset + local] = state[e];
       }
     }
   }

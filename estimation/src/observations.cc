@@ -5,6 +5,8 @@
 #include <limits>
 #include <random>
 
+#include "frame_interpolation.h"
+
 namespace dpe {
 
 int Observations::num_frames() const {
@@ -13,7 +15,8 @@ int Observations::num_frames() const {
     if (p.size() > 0) frames = std::max(frames, static_cast<int>(p.cols()));
   }
   for (const MarkerSample& sample : samples) {
-    frames = std::max(frames, static_cast<int>(std::ceil(sample.time)) + 1);
+    // A last sample just after a frame is no reason to simulate another.
+    frames = std::max(frames, static_cast<int>(std::ceil(sample.time - 1e-9)) + 1);
   }
   return frames;
 }
@@ -23,6 +26,18 @@ bool Observations::IsObserved(int object, int vertex, int frame) const {
   const Eigen::MatrixXd& p = positions[object];
   if (3 * vertex + 2 >= p.rows() || frame >= p.cols()) return false;
   return p.col(frame).segment<3>(3 * vertex).allFinite();
+}
+
+double Observations::Sigma(int object, int vertex, int frame) const {
+  if (object < static_cast<int>(sigmas.size()) && sigmas[object].size() > 0) {
+    const double own = sigmas[object](vertex, frame);
+    if (!std::isnan(own)) return own;
+  }
+  return sigma;
+}
+
+double Observations::Sigma(const MarkerSample& sample) const {
+  return sample.sigma > 0.0 ? sample.sigma : sigma;
 }
 
 long Observations::NumObserved(int object) const {
@@ -69,12 +84,23 @@ void AddNoise(const Scene& scene, double sigma, std::uint64_t seed, Observations
       }
     }
   }
+  for (MarkerSample& sample : obs->samples) {
+    for (int c = 0; c < 3; ++c) {
+      const double noise = normal(generator);
+      if (sample.time > 0.0) sample.position[c] += noise;
+    }
+  }
 }
 
-double RmsPositionError(const Trajectory& trajectory, const Observations& observations,
-                        int num_frames) {
-  double sum = 0.0;
+namespace {
+
+struct SquaredErrors {
+  double sum = 0.0;  // m^2
   long count = 0;
+};
+
+void AddVertexErrors(const Trajectory& trajectory, const Observations& observations,
+                     int num_frames, SquaredErrors* errors) {
   const size_t num_objects =
       std::min(trajectory.positions.size(), observations.positions.size());
   for (size_t object = 0; object < num_objects; ++object) {
@@ -86,14 +112,54 @@ double RmsPositionError(const Trajectory& trajectory, const Observations& observ
     for (int f = 0; f < frames; ++f) {
       for (int v = 0; v < simulated.rows() / 3; ++v) {
         if (!observations.IsObserved(static_cast<int>(object), v, f)) continue;
-        sum += (simulated.col(f).segment<3>(3 * v) - observed.col(f).segment<3>(3 * v))
-                   .squaredNorm();
-        ++count;
+        errors->sum +=
+            (simulated.col(f).segment<3>(3 * v) - observed.col(f).segment<3>(3 * v))
+                .squaredNorm();
+        ++errors->count;
       }
     }
   }
-  if (count == 0) return std::numeric_limits<double>::quiet_NaN();
-  return std::sqrt(sum / static_cast<double>(count));
+}
+
+void AddSampleErrors(const Trajectory& trajectory, const Observations& observations,
+                     int num_frames, SquaredErrors* errors) {
+  num_frames = std::min(num_frames, trajectory.num_frames());
+  for (const MarkerSample& sample : observations.samples) {
+    const Marker& marker = observations.markers[sample.marker];
+    if (!IsWithinFrames(sample.time, num_frames) ||
+        trajectory.positions[marker.object].size() == 0) {
+      continue;
+    }
+    errors->sum +=
+        (MarkerPosition(trajectory, marker, sample.time, num_frames) - sample.position)
+            .squaredNorm();
+    ++errors->count;
+  }
+}
+
+}  // namespace
+
+Eigen::Vector3d MarkerPosition(const Trajectory& trajectory, const Marker& marker,
+                               double time, int num_frames) {
+  const FrameWeights frames = InterpolateFrames(time, num_frames);
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  for (int k = 0; k < frames.count; ++k) {
+    const auto state = trajectory.positions[marker.object].col(frames.first + k);
+    for (size_t i = 0; i < marker.vertices.size(); ++i) {
+      position += frames.weights[k] * marker.weights[i] *
+                  state.segment<3>(3 * marker.vertices[i]);
+    }
+  }
+  return position;
+}
+
+double RmsPositionError(const Trajectory& trajectory, const Observations& observations,
+                        int num_frames) {
+  SquaredErrors errors;
+  AddVertexErrors(trajectory, observations, num_frames, &errors);
+  AddSampleErrors(trajectory, observations, num_frames, &errors);
+  if (errors.count == 0) return std::numeric_limits<double>::quiet_NaN();
+  return std::sqrt(errors.sum / static_cast<double>(errors.count));
 }
 
 }  // namespace dpe

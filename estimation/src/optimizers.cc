@@ -37,14 +37,13 @@ class ProgressCallback : public ceres::IterationCallback {
       report.iteration = context_->num_iterations;
       // A rejected step's own cost would only confuse; it may be infinite.
       report.cost =
-          s.step_is_successful ? s.cost : context_->problem->evaluator()->best_cost();
+          s.step_is_successful ? s.cost : context_->problem()->evaluator()->best_cost();
       report.step_norm = s.step_norm;
       report.gradient_max_norm = s.gradient_max_norm;
       report.step_accepted = s.step_is_successful;
       context_->Report(report);
     }
-    if (context_->stop->Poll() ||
-        context_->problem->evaluator()->best_cost() <= context_->converged_cost) {
+    if (context_->stop->Poll() || context_->fit->IsAtRounding()) {
       return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
     }
     return ceres::SOLVER_CONTINUE;
@@ -69,7 +68,7 @@ OptimizerResult Explain(const OptimizerContext& context, ceres::TerminationType 
   if (context.stop->ran_out_of_time()) {
     return {Termination::kMaxSeconds, "the time limit was reached"};
   }
-  if (context.problem->evaluator()->best_cost() <= context.converged_cost) {
+  if (context.fit->IsAtRounding()) {
     return {Termination::kConverged,
             "the error has fallen to the level of rounding (rms_tolerance)"};
   }
@@ -84,16 +83,41 @@ OptimizerResult Explain(const OptimizerContext& context, ceres::TerminationType 
   }
 }
 
+// What is left of the limit: the user's over everything, the default for each horizon.
 int MaxIterations(const OptimizerContext& context, int default_value) {
   const int limit = context.options->max_iterations;
-  return (limit >= 0 ? limit : default_value) - context.num_iterations;
+  return limit >= 0 ? limit - context.num_iterations
+                    : default_value + context.first_iteration - context.num_iterations;
+}
+
+// With one unknown per element, many of them hardly move the motion. Damping relative
+// to the columns of J lets these wander by factors of thousands at every step, which no
+// linear model describes; the same damping for all makes a step a change of the
+// logarithms that is small where nothing asks for it:
+//
+//   (J^T J + d / radius I) step = -J^T r,   d = max_j |J_j|^2 over elements.
+void SetUniformDamping(TrajectoryProblem* problem, ceres::Solver::Options* solver) {
+  TrajectoryEvaluator* evaluator = problem->evaluator();
+  if (!evaluator->EvaluateJacobian()) return;
+  double largest = 0.0;
+  for (const ParameterBlock& block : evaluator->layout().blocks()) {
+    if (block.mode != ParameterMode::kLocal) continue;
+    for (int j = block.offset; j < block.offset + block.size; ++j) {
+      largest = std::max(largest, evaluator->jacobian().col(j).squaredNorm());
+    }
+  }
+  if (!(largest > 0.0) || !std::isfinite(largest)) return;
+  solver->jacobi_scaling = false;
+  solver->min_lm_diagonal = largest;
+  solver->max_lm_diagonal = largest;
 }
 
 }  // namespace
 
 void OptimizerContext::Report(IterationReport report) const {
   if (!options->progress) return;
-  report.rms = rms_of_cost(report.cost);
+  report.rms = fit->best_rms();
+  report.num_frames = fit->num_frames();
   report.seconds = stop->Seconds();
   options->progress(report);
 }
@@ -111,6 +135,7 @@ OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
   // The damping is relative to the squared column lengths of J. Ceres raises those to
   // 1e-6 before, which would drown columns of short lengths (m per unit of ln p).
   solver.min_lm_diagonal = 1e-24;
+  SetUniformDamping(context->problem(), &solver);
   solver.function_tolerance = options.function_tolerance;
   solver.gradient_tolerance = options.gradient_tolerance;
   solver.parameter_tolerance = options.parameter_tolerance;
@@ -120,8 +145,8 @@ OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
   solver.callbacks.push_back(&callback);
   ceres::Solver::Summary summary;
   const std::unique_ptr<ceres::Problem> reduced =
-      context->problem->NewReducedLeastSquares();
-  ceres::Solve(solver, reduced ? reduced.get() : context->problem->least_squares(),
+      context->problem()->NewReducedLeastSquares();
+  ceres::Solve(solver, reduced ? reduced.get() : context->problem()->least_squares(),
                &summary);
   if (options.timings != nullptr) {
     options.timings->Add(
@@ -129,7 +154,7 @@ OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
         std::chrono::nanoseconds(
             std::llround(1e9 * std::max(0.0, summary.linear_solver_time_in_seconds))));
   }
-  RestoreBest(context->problem);
+  RestoreBest(context->problem());
   return Explain(*context, summary.termination_type, summary.message);
 }
 
@@ -142,17 +167,17 @@ OptimizerResult MinimizeByLbfgs(OptimizerContext* context) {
   solver.gradient_tolerance = options.gradient_tolerance;
   solver.parameter_tolerance = options.parameter_tolerance;
   solver.logging_type = ceres::SILENT;
-  TrajectoryEvaluator* evaluator = context->problem->evaluator();
-  const ceres::GradientProblem problem(context->problem->NewFirstOrderFunction());
+  TrajectoryEvaluator* evaluator = context->problem()->evaluator();
+  const ceres::GradientProblem problem(context->problem()->NewFirstOrderFunction());
   while (true) {
     solver.max_num_iterations = MaxIterations(*context, kDefaultLbfgsIterations);
     ProgressCallback callback(context);
     solver.callbacks = {&callback};
     const double cost_before = evaluator->best_cost();
-    Eigen::VectorXd coordinates = context->problem->coordinates();
+    Eigen::VectorXd coordinates = context->problem()->coordinates();
     ceres::GradientProblemSolver::Summary summary;
     ceres::Solve(solver, problem, coordinates.data(), &summary);
-    RestoreBest(context->problem);
+    RestoreBest(context->problem());
     OptimizerResult result =
         Explain(*context, summary.termination_type, summary.message);
     if (result.termination != Termination::kNumericalFailure) return result;

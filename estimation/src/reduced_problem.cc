@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -13,85 +14,119 @@ namespace dpe {
 namespace {
 
 using FreeBlock = ProblemRows::FreeBlock;
+using Group = ProblemRows::Group;
 
+// What the costs of one reduced problem have in common.
+struct SharedRows {
+  SharedRows(ProblemRows r, std::function<bool()> i)
+      : rows(std::move(r)), interrupted(std::move(i)) {}
+  ProblemRows rows;  // evaluating needs its memory
+  std::function<bool()> interrupted;
+  std::mutex mutex;  // and that of the full problem
+};
+
+// One group of rows, (z, t) of the header; or, where it has no more rows than columns,
+// the rows as they are in place of z.
 class ReducedCost : public ceres::CostFunction {
  public:
-  ReducedCost(ProblemRows rows, int num_threads, Timings* timings,
-              std::function<bool()> interrupted)
-      : rows_(std::move(rows)),
+  ReducedCost(std::shared_ptr<SharedRows> shared, int group, int num_threads,
+              Timings* timings)
+      : shared_(std::move(shared)),
+        group_index_(group),
+        group_(shared_->rows.groups()[group]),
         num_threads_(num_threads),
-        timings_(timings),
-        interrupted_(std::move(interrupted)) {
-    set_num_residuals(rows_.num_parameters() + 1);
-    for (const FreeBlock& block : rows_.free_blocks()) {
-      mutable_parameter_block_sizes()->push_back(block.size);
+        timings_(timings) {
+    num_rows_ = std::min(group_.num_rows, group_.num_columns);
+    set_num_residuals(num_rows_ + 1);
+    for (int free : group_.free_blocks) {
+      mutable_parameter_block_sizes()->push_back(FreeBlocks()[free].size);
     }
   }
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
+    const std::lock_guard<std::mutex> lock(shared_->mutex);
     const ScopedTimer timer(timings_, TimedPart::kLeastSquares);
-    const std::vector<FreeBlock>& blocks = rows_.free_blocks();
-    for (size_t b = 0; b < blocks.size(); ++b) {
-      std::copy_n(parameters[b], blocks[b].size, blocks[b].values);
+    const size_t num_blocks = group_.free_blocks.size();
+    for (size_t b = 0; b < num_blocks; ++b) {
+      const FreeBlock& block = FreeBlocks()[group_.free_blocks[b]];
+      std::copy_n(parameters[b], block.size, block.values);
     }
-    const int n = rows_.num_parameters();
-    Eigen::Map<Eigen::VectorXd> z(residuals, n);
+    Eigen::Map<Eigen::VectorXd> z(residuals, num_rows_);
     double cost = 0.0;
     if (jacobians == nullptr) {
-      if (!rows_.EvaluateCost(&cost)) return false;
+      if (!shared_->rows.EvaluateCost(group_index_, &cost)) return false;
       z.setZero();
-      residuals[n] = std::sqrt(2.0 * cost);
+      residuals[num_rows_] = std::sqrt(2.0 * cost);
       return true;
     }
     Eigen::MatrixXd r;
     if (!Reduce(&cost, &r)) return false;
-    z = r.col(n).head(n);
-    residuals[n] = std::sqrt(std::max(0.0, 2.0 * cost - z.squaredNorm()));
-    for (size_t b = 0; b < blocks.size(); ++b) {
+    z = r.col(group_.num_columns).head(num_rows_);
+    residuals[num_rows_] = std::sqrt(std::max(0.0, 2.0 * cost - z.squaredNorm()));
+    for (size_t b = 0; b < num_blocks; ++b) {
       if (jacobians[b] == nullptr) continue;
-      if (!WriteJacobian(blocks[b], r, parameters[b], jacobians[b])) return false;
+      if (!WriteJacobian(static_cast<int>(b), r, parameters[b], jacobians[b])) {
+        return false;
+      }
     }
     return true;
   }
 
  private:
-  // The triangular factor of [J r].
+  const std::vector<FreeBlock>& FreeBlocks() const {
+    return shared_->rows.free_blocks();
+  }
+
+  // The triangular factor of [J r], or [J r] itself.
   bool Reduce(double* cost, Eigen::MatrixXd* r) const {
-    std::vector<double> costs(rows_.chunk_rows().size(), 0.0);
-    const bool ok = TallQr(
-        rows_.chunk_rows(), rows_.num_parameters() + 1, num_threads_,
-        [&](int chunk, Eigen::Ref<Eigen::MatrixXd> rows) {
-          if (interrupted_ && interrupted_()) return false;
-          return rows_.EvaluateChunk(chunk, rows, &costs[chunk]);
-        },
-        r);
+    std::vector<double> costs(group_.chunk_rows.size(), 0.0);
+    const auto fill = [&](int chunk, Eigen::Ref<Eigen::MatrixXd> rows) {
+      if (shared_->interrupted && shared_->interrupted()) return false;
+      return shared_->rows.EvaluateChunk(group_index_, chunk, rows, &costs[chunk]);
+    };
+    bool ok = true;
+    if (group_.num_rows > group_.num_columns) {
+      ok = TallQr(group_.chunk_rows, group_.num_columns + 1, num_threads_, fill, r);
+    } else {
+      r->resize(group_.num_rows, group_.num_columns + 1);
+      int row = 0;
+      for (size_t chunk = 0; ok && chunk < group_.chunk_rows.size(); ++chunk) {
+        const int count = group_.chunk_rows[chunk];
+        Eigen::MatrixXd rows(count, group_.num_columns + 1);
+        ok = fill(static_cast<int>(chunk), rows);
+        r->middleRows(row, count) = rows;
+        row += count;
+      }
+    }
     for (const double part : costs) *cost += part;
     return ok && std::isfinite(*cost);
   }
 
   // Ceres asks for derivatives in the ambient space and multiplies them by the
   // manifold's plus-Jacobian P. R M does, where M is its minus-Jacobian: M P = 1.
-  bool WriteJacobian(const FreeBlock& block, const Eigen::MatrixXd& r,
-                     const double* point, double* jacobian) const {
-    const int n = rows_.num_parameters();
-    Eigen::Map<RowMajorMatrix> out(jacobian, n + 1, block.size);
+  bool WriteJacobian(int b, const Eigen::MatrixXd& r, const double* point,
+                     double* jacobian) const {
+    const FreeBlock& block = FreeBlocks()[group_.free_blocks[b]];
+    Eigen::Map<RowMajorMatrix> out(jacobian, num_rows_ + 1, block.size);
     out.bottomRows<1>().setZero();
-    const auto columns = r.block(0, block.column, n, block.tangent_size);
+    const auto columns = r.block(0, group_.columns[b], num_rows_, block.tangent_size);
     if (block.manifold == nullptr) {
-      out.topRows(n) = columns;
+      out.topRows(num_rows_) = columns;
       return true;
     }
     RowMajorMatrix minus(block.tangent_size, block.size);
     if (!block.manifold->MinusJacobian(point, minus.data())) return false;
-    out.topRows(n).noalias() = columns * minus;
+    out.topRows(num_rows_).noalias() = columns * minus;
     return true;
   }
 
-  mutable ProblemRows rows_;  // evaluating needs its memory
+  std::shared_ptr<SharedRows> shared_;
+  int group_index_;
+  const Group& group_;
+  int num_rows_ = 0;  // of z
   int num_threads_;
   Timings* timings_;
-  std::function<bool()> interrupted_;
 };
 
 void CopyBounds(const ceres::Problem& from, const FreeBlock& block,
@@ -114,7 +149,8 @@ std::unique_ptr<ceres::Problem> NewReducedProblem(ceres::Problem* full,
                                                   ceres::EvaluationCallback* callback,
                                                   int num_threads, Timings* timings,
                                                   std::function<bool()> interrupted) {
-  ProblemRows rows(full);
+  auto shared = std::make_shared<SharedRows>(ProblemRows(full), std::move(interrupted));
+  const ProblemRows& rows = shared->rows;
   if (rows.num_parameters() == 0 || rows.num_rows() <= rows.num_parameters()) {
     return nullptr;
   }
@@ -122,12 +158,15 @@ std::unique_ptr<ceres::Problem> NewReducedProblem(ceres::Problem* full,
   options.evaluation_callback = callback;
   options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   auto reduced = std::make_unique<ceres::Problem>(options);
-  const std::vector<FreeBlock> blocks = rows.free_blocks();
-  std::vector<double*> values;
-  for (const FreeBlock& block : blocks) values.push_back(block.values);
-  reduced->AddResidualBlock(
-      new ReducedCost(std::move(rows), num_threads, timings, std::move(interrupted)),
-      nullptr, values);
+  const std::vector<FreeBlock>& blocks = rows.free_blocks();
+  for (int g = 0; g < static_cast<int>(rows.groups().size()); ++g) {
+    std::vector<double*> values;
+    for (int free : rows.groups()[g].free_blocks) {
+      values.push_back(blocks[free].values);
+    }
+    reduced->AddResidualBlock(new ReducedCost(shared, g, num_threads, timings), nullptr,
+                              values);
+  }
   for (const FreeBlock& block : blocks) {
     if (block.manifold != nullptr) {
       // Ceres keeps a pointer that can be written through, and does not.

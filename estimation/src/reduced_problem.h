@@ -20,6 +20,12 @@
 // et al., Bundle adjustment, 2000, section 4.3); then |r|^2 is at most twice the cost
 // as long as the losses are concave, as robust ones are.
 //
+// Where residuals read different parameter blocks (those of several segments, each with
+// an initial state of its own), this is done for each group of rows that read the same
+// ones (problem_rows.h) by itself: n is then the number of columns of the group, and
+// the reduced problem has one residual block per group and keeps the zeros of J between
+// them. A group with no more rows than columns stays as it is.
+//
 // A residual by itself means nothing: Q changes from point to point.
 #ifndef DPE_ESTIMATION_REDUCED_PROBLEM_H_
 #define DPE_ESTIMATION_REDUCED_PROBLEM_H_

@@ -1,49 +1,127 @@
 #include "dpe/estimation/trajectory_evaluator.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "dpe/engine/parallel.h"
+#include "dpe/engine/scene_io.h"
+#include "link_cost.h"
+#include "segment_rollout.h"
+
 namespace dpe {
 namespace {
 
-SimulatorOptions MakeSimulatorOptions(const TrajectoryEvaluatorOptions& options) {
+SimulatorOptions MakeSimulatorOptions(const TrajectoryEvaluatorOptions& options,
+                                      int num_segments) {
   SimulatorOptions simulator_options;
   simulator_options.only_estimated_objects = true;
-  simulator_options.num_threads = options.num_threads;
-  simulator_options.memory_limit_bytes = options.memory_limit_bytes;
+  // Segments come first: they share nothing.
+  simulator_options.num_threads = std::max(1, options.num_threads / num_segments);
+  simulator_options.memory_limit_bytes = options.memory_limit_bytes / num_segments;
   simulator_options.interrupted = options.interrupted;
   simulator_options.timings = options.timings;
   return simulator_options;
+}
+
+std::vector<TrajectorySegment> OneSegment(const Scene& scene, TrajectoryCosts costs) {
+  std::vector<TrajectorySegment> segments(1);
+  segments[0].scene = scene;
+  segments[0].costs = std::move(costs);
+  return segments;
+}
+
+void CheckLinks(const std::vector<SegmentLink>& links, int num_segments) {
+  for (const SegmentLink& link : links) {
+    if (link.from >= 0 && link.to >= 0 && link.from < num_segments &&
+        link.to < num_segments && link.from != link.to && link.frame >= 0) {
+      continue;
+    }
+    throw SceneError("a link from segment " + std::to_string(link.from) + ", frame " +
+                     std::to_string(link.frame) + ", to segment " +
+                     std::to_string(link.to) + " is not accepted; there are " +
+                     std::to_string(num_segments) + " segments");
+  }
 }
 
 }  // namespace
 
 TrajectoryEvaluator::TrajectoryEvaluator(const Scene& scene, TrajectoryCosts costs,
                                          const TrajectoryEvaluatorOptions& options)
-    : options_(options),
-      simulator_(scene, MakeSimulatorOptions(options)),
-      map_(simulator_.layout()),
-      costs_(std::move(costs)),
-      best_cost_(std::numeric_limits<double>::infinity()) {
-  int num_rows = 0;
-  for (const auto& cost : costs_) {
-    first_rows_.push_back(num_rows);
-    num_rows += cost->num_residuals();
-    last_frames_.push_back(0);
-    for (const TrajectoryCost::StateReference& state : cost->states()) {
-      if (state.object < 0 || state.object >= static_cast<int>(scene.objects.size()) ||
-          !simulator_.is_simulated(state.object) || state.frame < 0) {
-        throw SceneError("a cost reads object " + std::to_string(state.object) +
-                         " at frame " + std::to_string(state.frame) +
-                         ", which is not simulated; accepted are objects with an "
-                         "estimated parameter and frames from 0");
-      }
-      last_frames_.back() = std::max(last_frames_.back(), state.frame);
+    : TrajectoryEvaluator(OneSegment(scene, std::move(costs)), {}, options) {}
+
+TrajectoryEvaluator::TrajectoryEvaluator(std::vector<TrajectorySegment> segments,
+                                         std::vector<SegmentLink> links,
+                                         const TrajectoryEvaluatorOptions& options)
+    : options_(options), best_cost_(std::numeric_limits<double>::infinity()) {
+  if (segments.empty()) throw SceneError("a fit needs at least one segment");
+  CheckLinks(links, static_cast<int>(segments.size()));
+  if (segments.size() > 1) {  // a simulator checks its scene, but only its own
+    for (size_t s = 0; s < segments.size(); ++s) {
+      ValidateScene(segments[s].scene, "scene " + std::to_string(s));
     }
-    num_frames_ = std::max(num_frames_, last_frames_.back() + 1);
+  }
+  MakeSegments(std::move(segments), links);
+}
+
+TrajectoryEvaluator::~TrajectoryEvaluator() = default;
+
+void TrajectoryEvaluator::MakeSegments(std::vector<TrajectorySegment> segments,
+                                       const std::vector<SegmentLink>& links) {
+  std::vector<const Scene*> scenes;
+  for (const TrajectorySegment& segment : segments) scenes.push_back(&segment.scene);
+  joint_ = std::make_unique<JointLayout>(scenes, options_.own_wind);
+  map_ = ParameterMap(layout());
+  const int num_segments = static_cast<int>(segments.size());
+  links_.resize(links.size());
+  int num_rows = 0;
+  for (int s = 0; s < num_segments; ++s) {
+    const size_t first_cost = costs_.size();
+    for (auto& cost : segments[s].costs) costs_.push_back(std::move(cost));
+    for (size_t k = 0; k < links.size(); ++k) {
+      if (links[k].from != s) continue;
+      const int to = links[k].to;
+      auto cost = LinkCost::Create(links[k], ParameterLayout(segments[to].scene));
+      links_[k] = {static_cast<int>(costs_.size()), to, cost.get(), {}};
+      for (int own : cost->parameters()) {
+        links_[k].parameters.push_back(joint_->indices(to)[own]);
+      }
+      costs_.push_back(std::move(cost));
+    }
+    std::vector<const TrajectoryCost*> of_segment;
+    for (size_t i = first_cost; i < costs_.size(); ++i) {
+      of_segment.push_back(costs_[i].get());
+      segment_of_cost_.push_back(s);
+    }
+    segments_.push_back(
+        std::make_unique<SegmentRollout>(segments[s].scene, std::move(of_segment),
+                                         MakeSimulatorOptions(options_, num_segments)));
+    segment_rows_.push_back(num_rows);
+    for (size_t i = first_cost; i < costs_.size(); ++i) {
+      first_rows_.push_back(num_rows +
+                            segments_[s]->first_row(static_cast<int>(i - first_cost)));
+    }
+    num_rows += segments_[s]->num_residuals();
   }
   residuals_.resize(num_rows);
+}
+
+Simulator* TrajectoryEvaluator::simulator(int segment) {
+  return segments_[segment]->simulator();
+}
+
+int TrajectoryEvaluator::num_frames(int segment) const {
+  return segments_[segment]->num_frames();
+}
+
+const RowMajorMatrix& TrajectoryEvaluator::jacobian(int segment) const {
+  return segments_[segment]->jacobian();
+}
+
+const Trajectory& TrajectoryEvaluator::trajectory(int segment) const {
+  return segments_[segment]->rollout().trajectory();
 }
 
 bool TrajectoryEvaluator::Fail(const std::string& message) {
@@ -52,136 +130,172 @@ bool TrajectoryEvaluator::Fail(const std::string& message) {
   return false;
 }
 
+void TrajectoryEvaluator::Forget() {
+  coordinates_.resize(0);
+  ok_ = false;
+  jacobian_is_current_ = false;
+}
+
+// The first failure of several segments is the one that is told.
+bool TrajectoryEvaluator::AllOk(const std::vector<char>& ok) {
+  for (size_t s = 0; s < ok.size(); ++s) {
+    if (ok[s]) continue;
+    message_ = segments_[s]->message();
+    if (ok.size() > 1) message_ = "segment " + std::to_string(s) + ": " + message_;
+    return false;
+  }
+  return true;
+}
+
 bool TrajectoryEvaluator::Evaluate(const Eigen::VectorXd& coordinates) {
   if (coordinates_.size() == coordinates.size() && coordinates_ == coordinates) {
     return ok_;
   }
   jacobian_is_current_ = false;
-  state_derivatives_are_current_ = false;
   coordinates_ = coordinates;
   const Eigen::VectorXd parameters = map_.ToParameters(coordinates);
   if (!parameters.allFinite()) return Fail("a parameter is not a finite number");
-  rollout_ = Rollout();  // one at a time in memory
-  rollout_ = simulator_.Run(parameters, num_frames_);
-  ++num_rollouts_;
-  if (!rollout_.status().ok()) {
-    // An interrupted rollout says nothing about this point: do not remember it.
-    if (rollout_.status().code == RolloutStatus::Code::kInterrupted) {
-      coordinates_.resize(0);
+  std::vector<char> ok(num_segments(), 0);
+  ParallelFor(options_.num_threads, num_segments(), [&](int s) {
+    ok[s] = segments_[s]->Evaluate(joint_->Gather(parameters, s),
+                                   residuals_.data() + segment_rows_[s]);
+  });
+  num_rollouts_ += num_segments();
+  if (!AllOk(ok)) {
+    for (const auto& segment : segments_) {
+      // An interrupted rollout says nothing about this point: do not remember it.
+      if (segment->was_interrupted()) coordinates_.resize(0);
     }
-    return Fail(rollout_.status().Message());
+    return Fail(message_);
   }
-  return EvaluateCosts();
-}
-
-bool TrajectoryEvaluator::EvaluateCosts() {
-  for (size_t i = 0; i < costs_.size(); ++i) {
-    if (!costs_[i]->Evaluate(trajectory(), residuals_.data() + first_rows_[i],
-                             nullptr)) {
-      return Fail("residual " + std::to_string(i) + " cannot be evaluated there");
-    }
-  }
+  SubtractLinkTargets(parameters);
   if (!std::isfinite(cost())) return Fail("the cost is not a finite number");
   ok_ = true;
   message_.clear();
   if (cost() < best_cost_) {
     best_cost_ = cost();
     best_coordinates_ = coordinates_;
+    if (options_.improved) options_.improved();
   }
   return true;
 }
 
-bool TrajectoryEvaluator::CostOverHorizon(const Eigen::VectorXd& coordinates,
-                                          int num_frames, double* cost) {
-  const Eigen::VectorXd parameters = map_.ToParameters(coordinates);
-  if (!parameters.allFinite()) return false;
-  rollout_ = Rollout();  // one at a time in memory
-  coordinates_.resize(0);
-  ok_ = false;
-  const Rollout rollout = simulator_.Run(parameters, num_frames);
-  ++num_rollouts_;
-  if (!rollout.status().ok()) return false;
-  Eigen::VectorXd residuals;
-  *cost = 0.0;
-  for (size_t i = 0; i < costs_.size(); ++i) {
-    if (last_frames_[i] >= num_frames) continue;
-    residuals.resize(costs_[i]->num_residuals());
-    if (!costs_[i]->Evaluate(rollout.trajectory(), residuals.data(), nullptr)) {
-      return false;
+void TrajectoryEvaluator::SubtractLinkTargets(const Eigen::VectorXd& parameters) {
+  for (const Link& link : links_) {
+    const int row = first_rows_[link.cost];
+    for (size_t i = 0; i < link.parameters.size(); ++i) {
+      residuals_[row + i] -= link.state->weights()[i] * parameters[link.parameters[i]];
     }
-    *cost += 0.5 * residuals.squaredNorm();
   }
-  return std::isfinite(*cost);
 }
 
-const std::vector<StateDerivative>& TrajectoryEvaluator::StateDerivatives() {
-  if (state_derivatives_are_current_) return state_derivatives_;
-  state_derivatives_.clear();
-  Eigen::VectorXd unused;
-  for (size_t i = 0; i < costs_.size(); ++i) {
-    const size_t begin = state_derivatives_.size();
-    unused.resize(costs_[i]->num_residuals());
-    costs_[i]->Evaluate(trajectory(), unused.data(), &state_derivatives_);
-    for (size_t k = begin; k < state_derivatives_.size(); ++k) {
-      state_derivatives_[k].first_row += first_rows_[i];
-    }
-  }
-  state_derivatives_are_current_ = true;
-  return state_derivatives_;
+bool TrajectoryEvaluator::CostOverHorizon(const Eigen::VectorXd& coordinates,
+                                          int num_frames, double* cost) {
+  assert(links_.empty());
+  const Eigen::VectorXd parameters = map_.ToParameters(coordinates);
+  if (!parameters.allFinite()) return false;
+  Forget();
+  std::vector<char> ok(num_segments(), 0);
+  std::vector<double> parts(num_segments(), 0.0);
+  ParallelFor(options_.num_threads, num_segments(), [&](int s) {
+    ok[s] = segments_[s]->CostOverHorizon(joint_->Gather(parameters, s), num_frames,
+                                          &parts[s]);
+  });
+  num_rollouts_ += num_segments();
+  *cost = 0.0;
+  for (double part : parts) *cost += part;
+  return std::all_of(ok.begin(), ok.end(), [](char c) { return c != 0; });
 }
 
 bool TrajectoryEvaluator::EvaluateJacobian() {
   if (!ok_) return false;
   if (jacobian_is_current_) return true;
-  Sensitivity sensitivity(&simulator_, &rollout_);
-  sensitivity.Jacobian(StateDerivatives(), num_residuals(), options_.jacobian,
-                       &jacobian_);
-  ++num_derivative_passes_;
-  const Eigen::VectorXd scale = map_.Derivative(coordinates_);
-  bool is_finite = true;
-  for (int row = 0; row < jacobian_.rows(); ++row) {
-    jacobian_.row(row).array() *= scale.transpose().array();
-    is_finite &= jacobian_.row(row).allFinite();
+  const Eigen::VectorXd dp_dq = map_.Derivative(coordinates_);
+  std::vector<char> ok(num_segments(), 0);
+  ParallelFor(options_.num_threads, num_segments(), [&](int s) {
+    ok[s] = segments_[s]->EvaluateJacobian(options_.jacobian, joint_->Gather(dp_dq, s));
+  });
+  num_derivative_passes_ += num_segments();
+  jacobian_is_current_ = AllOk(ok);
+  return jacobian_is_current_;
+}
+
+RowMajorMatrix TrajectoryEvaluator::DenseJacobian() const {
+  RowMajorMatrix dense = RowMajorMatrix::Zero(num_residuals(), num_parameters());
+  for (int s = 0; s < num_segments(); ++s) {
+    const RowMajorMatrix& part = jacobian(s);
+    const std::vector<int>& columns = joint_->indices(s);
+    for (int row = 0; row < part.rows(); ++row) {
+      for (int k = 0; k < part.cols(); ++k) {
+        dense(segment_rows_[s] + row, columns[k]) = part(row, k);
+      }
+    }
   }
-  if (!sensitivity.ok() || !is_finite) {
-    message_ = "the derivative of the rollout could not be computed";
-    return false;
+  for (const Link& link : links_) {  // initial states are their own coordinates
+    for (size_t i = 0; i < link.parameters.size(); ++i) {
+      dense(first_rows_[link.cost] + i, link.parameters[i]) -= link.state->weights()[i];
+    }
   }
-  jacobian_is_current_ = true;
-  return true;
+  return dense;
 }
 
 bool TrajectoryEvaluator::EvaluateGradient(Eigen::VectorXd* gradient) {
   if (!ok_) return false;
-  const size_t num_objects = trajectory().positions.size();
-  std::vector<Eigen::MatrixXd> dl_dx(num_objects);
-  std::vector<Eigen::MatrixXd> dl_dv(num_objects);
-  for (const StateDerivative& d : StateDerivatives()) {
-    const auto add = [&](const SparseRows& derivative, Eigen::MatrixXd* sum) {
-      if (derivative.rows() == 0) return;
-      if (sum->size() == 0) sum->setZero(derivative.cols(), num_frames_);
-      sum->col(d.frame) +=
-          derivative.transpose() * residuals_.segment(d.first_row, derivative.rows());
-    };
-    add(d.d_position, &dl_dx[d.object]);
-    add(d.d_velocity, &dl_dv[d.object]);
+  std::vector<char> ok(num_segments(), 0);
+  std::vector<Eigen::VectorXd> parts(num_segments());
+  ParallelFor(options_.num_threads, num_segments(), [&](int s) {
+    ok[s] =
+        segments_[s]->EvaluateGradient(residuals_.data() + segment_rows_[s], &parts[s]);
+  });
+  num_derivative_passes_ += num_segments();
+  if (!AllOk(ok)) return false;
+  gradient->setZero(num_parameters());
+  for (int s = 0; s < num_segments(); ++s) joint_->ScatterAdd(parts[s], s, gradient);
+  for (const Link& link : links_) {
+    for (size_t i = 0; i < link.parameters.size(); ++i) {
+      (*gradient)[link.parameters[i]] -=
+          link.state->weights()[i] * residuals_[first_rows_[link.cost] + i];
+    }
   }
-  Sensitivity sensitivity(&simulator_, &rollout_);
-  *gradient = sensitivity.Gradient(dl_dx, dl_dv);
-  ++num_derivative_passes_;
   gradient->array() *= map_.Derivative(coordinates_).array();
-  if (!sensitivity.ok() || !gradient->allFinite()) {
-    message_ = "the gradient of the rollout could not be computed";
-    return false;
-  }
   return true;
+}
+
+void TrajectoryEvaluator::SetLinkWeights(int link, double position_weight,
+                                         double velocity_weight) {
+  links_[link].state->SetWeights(position_weight, velocity_weight);
+  for (const auto& segment : segments_) segment->Forget();
+  Forget();
+  best_coordinates_.resize(0);
+  best_cost_ = std::numeric_limits<double>::infinity();
+}
+
+const TrajectoryEvaluator::Link* TrajectoryEvaluator::FindLink(int cost) const {
+  for (const Link& link : links_) {
+    if (link.cost == cost) return &link;
+  }
+  return nullptr;
+}
+
+std::vector<TrajectoryEvaluator::LinkTerm> TrajectoryEvaluator::LinkTerms(
+    int cost) const {
+  std::vector<LinkTerm> terms;
+  const Link* link = FindLink(cost);
+  if (link == nullptr) return terms;
+  for (size_t i = 0; i < link->parameters.size(); ++i) {
+    terms.push_back({link->parameters[i], link->state->weights()[i]});
+  }
+  return terms;
+}
+
+int TrajectoryEvaluator::LinkTarget(int cost) const {
+  const Link* link = FindLink(cost);
+  return link == nullptr ? -1 : link->to;
 }
 
 std::string TrajectoryEvaluator::JacobianMethodName() {
   JacobianMethod method = options_.jacobian;
-  if (method == JacobianMethod::kAuto && ok_) {
-    method = Sensitivity(&simulator_, &rollout_).CheaperMethod(StateDerivatives());
-  }
+  if (method == JacobianMethod::kAuto && ok_) method = segments_[0]->CheaperMethod();
   return method == JacobianMethod::kAdjoint ? "adjoint" : "tangent";
 }
 

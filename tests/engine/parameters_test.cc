@@ -79,14 +79,18 @@ TEST(ParameterLayout, OtherQuantitiesFollowInTheirOrder) {
   scene.objects[0].estimate_damping = true;
   scene.objects[0].estimate_drag = true;
   scene.objects[0].estimate_initial_velocity = true;
+  scene.objects[0].estimate_initial_position = true;
   const ParameterLayout layout(scene);
-  ASSERT_EQ(layout.blocks().size(), 5);
-  const ParameterKind kinds[] = {ParameterKind::kDamping, ParameterKind::kDrag,
-                                 ParameterKind::kInitialVelocity, ParameterKind::kMass,
+  ASSERT_EQ(layout.blocks().size(), 6);
+  const ParameterKind kinds[] = {ParameterKind::kDamping,
+                                 ParameterKind::kDrag,
+                                 ParameterKind::kInitialVelocity,
+                                 ParameterKind::kInitialPosition,
+                                 ParameterKind::kMass,
                                  ParameterKind::kWind};
-  const int objects[] = {0, 0, 0, 1, -1};
+  const int objects[] = {0, 0, 0, 0, 1, -1};
   int offset = 0;
-  for (int b = 0; b < 5; ++b) {
+  for (int b = 0; b < 6; ++b) {
     EXPECT_EQ(layout.blocks()[b].kind, kinds[b]) << b;
     EXPECT_EQ(layout.blocks()[b].object, objects[b]) << b;
     EXPECT_EQ(layout.blocks()[b].offset, offset) << b;
@@ -95,11 +99,13 @@ TEST(ParameterLayout, OtherQuantitiesFollowInTheirOrder) {
   EXPECT_EQ(layout.size(), offset);
   EXPECT_EQ(layout.blocks()[0].mode, ParameterMode::kGlobal);
   EXPECT_EQ(layout.blocks()[1].mode, ParameterMode::kGlobal);
-  EXPECT_EQ(layout.blocks()[2].size, 6);  // three per free vertex
-  EXPECT_THAT(layout.blocks()[2].element_to_local,
-              ElementsAre(-1, -1, -1, -1, -1, -1, 0, 1, 2, 3, 4, 5));
-  Eigen::VectorXd expected(12);
-  expected << 0.3, 0.4, 7, 8, 9, 10, 11, 12, 4, 1, 2, 3;
+  for (int b : {2, 3}) {
+    EXPECT_EQ(layout.blocks()[b].size, 6);  // three per free vertex
+    EXPECT_THAT(layout.blocks()[b].element_to_local,
+                ElementsAre(-1, -1, -1, -1, -1, -1, 0, 1, 2, 3, 4, 5));
+  }
+  Eigen::VectorXd expected(18);
+  expected << 0.3, 0.4, 7, 8, 9, 10, 11, 12, 0, 1, 0, 1, 1, 0, 4, 1, 2, 3;
   EXPECT_EQ(layout.Extract(scene), expected);
 }
 
@@ -111,6 +117,7 @@ TEST(ParameterLayout, InsertIsTheInverseOfExtract) {
   scene.objects[0].estimate_damping = true;
   scene.objects[0].estimate_drag = true;
   scene.objects[0].estimate_initial_velocity = true;
+  scene.objects[0].estimate_initial_position = true;
   const ParameterLayout layout(scene);
   const Eigen::VectorXd p = Eigen::VectorXd::LinSpaced(layout.size(), 0.1, 9.7);
   Scene changed = scene;
@@ -120,7 +127,28 @@ TEST(ParameterLayout, InsertIsTheInverseOfExtract) {
   EXPECT_EQ(changed.objects[0].mass.head(2), scene.objects[0].mass.head(2));
   EXPECT_EQ(changed.objects[0].stiffness[1], scene.objects[0].stiffness[1]);
   EXPECT_EQ(changed.objects[0].velocities.head(6), scene.objects[0].velocities.head(6));
+  EXPECT_EQ(changed.objects[0].positions.head(6), scene.objects[0].positions.head(6));
+  EXPECT_NE(changed.objects[0].positions.tail(6), scene.objects[0].positions.tail(6));
   EXPECT_EQ(changed.objects[0].stiffness[0], changed.objects[0].stiffness[3]);
+}
+
+TEST(ParameterLayout, BlocksOfOtherSegmentsAreLeftAlone) {
+  Scene scene = SmallScene();
+  ApplySettings("nG", &scene);
+  scene.objects[0].estimate_initial_velocity = true;
+  std::vector<ParameterBlock> blocks = ParameterLayout(scene).blocks();
+  blocks[1].segment = 0;
+  blocks.push_back(blocks[1]);
+  blocks[2].segment = 1;
+  const ParameterLayout layout(blocks);
+  EXPECT_EQ(layout.size(), 13);
+  EXPECT_EQ(layout.blocks()[2].offset, 7);
+  Eigen::VectorXd p = Eigen::VectorXd::LinSpaced(13, 1.0, 13.0);
+  layout.Insert(p, &scene, 1);
+  EXPECT_EQ(scene.objects[0].stiffness[0], 1.0);
+  EXPECT_EQ(scene.objects[0].velocities.tail(6), p.tail(6));
+  p.segment(1, 6).setZero();
+  EXPECT_EQ(layout.Extract(scene, 1), p);
 }
 
 TEST(ParameterLayout, BlocksWithoutInfluenceAreLeftOut) {
@@ -188,6 +216,9 @@ TEST(ParameterKinds, HaveNameUnitAndSign) {
   EXPECT_TRUE(ParameterKindIsPositive(ParameterKind::kDrag));
   EXPECT_FALSE(ParameterKindIsPositive(ParameterKind::kWind));
   EXPECT_FALSE(ParameterKindIsPositive(ParameterKind::kInitialVelocity));
+  EXPECT_EQ(ParameterKindName(ParameterKind::kInitialPosition), "initial position");
+  EXPECT_EQ(ParameterKindUnit(ParameterKind::kInitialPosition), "m");
+  EXPECT_FALSE(ParameterKindIsPositive(ParameterKind::kInitialPosition));
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ void ExpectSameObject(const ClothObject& a, const ClothObject& b) {
   EXPECT_TRUE(SameBits(a.mass, b.mass));
   EXPECT_EQ(a.springs, b.springs);
   EXPECT_TRUE(SameBits(a.stiffness, b.stiffness));
+  EXPECT_TRUE(SameBits(a.rest_length, b.rest_length));
   EXPECT_EQ(a.spring_kind, b.spring_kind);
   EXPECT_EQ(a.spring_group, b.spring_group);
   EXPECT_EQ(a.vertex_group, b.vertex_group);
@@ -56,6 +57,7 @@ void ExpectSameObject(const ClothObject& a, const ClothObject& b) {
   EXPECT_EQ(a.estimate_damping, b.estimate_damping);
   EXPECT_EQ(a.estimate_drag, b.estimate_drag);
   EXPECT_EQ(a.estimate_initial_velocity, b.estimate_initial_velocity);
+  EXPECT_EQ(a.estimate_initial_position, b.estimate_initial_position);
 }
 
 void ExpectSameCollider(const Collider& a, const Collider& b) {
@@ -116,10 +118,12 @@ Scene SceneWithEverything() {
   for (double& mass : object.mass) mass = uniform(generator);
   for (double& velocity : object.velocities) velocity = uniform(generator) - 0.5;
   object.spring_kind.clear();
+  object.rest_length.resize(object.num_springs());
+  for (double& length : object.rest_length) length = uniform(generator);
   object.mass_mode = ParameterMode::kGroup;
   object.stiffness_mode = ParameterMode::kGlobal;
   object.estimate_damping = object.estimate_drag = true;
-  object.estimate_initial_velocity = true;
+  object.estimate_initial_velocity = object.estimate_initial_position = true;
   for (int v = 0; v < object.num_vertices(); ++v) object.vertex_group.push_back(v % 3);
   for (int s = 0; s < object.num_springs(); ++s) object.spring_group.push_back(s % 4);
   object.prescribed_paths.push_back({0, Eigen::Matrix3Xd::Constant(3, 2, 0.7)});
@@ -182,6 +186,7 @@ TEST(SceneIo, AddedKeysHaveDefaults) {
   EXPECT_EQ(scene.colliders[0].stiffness, 1000.0);
   const ClothObject& object = scene.objects[0];
   EXPECT_EQ(object.velocities, Eigen::VectorXd::Zero(9));
+  EXPECT_EQ(object.rest_length.size(), 0);
   EXPECT_THAT(object.spring_group, IsEmpty());
   EXPECT_THAT(object.vertex_group, IsEmpty());
   EXPECT_THAT(object.spring_kind, IsEmpty());
@@ -203,7 +208,8 @@ TEST(SceneIo, OptionalKeysAreWrittenOnlyWhereTheyDifferFromTheirDefault) {
   const std::string text = SceneToJson(ParseScene(SmallSceneText(), "scene.txt"));
   for (const char* key :
        {"gravity", "aerodynamics", "solver", "estimate", "springGroup", "vertexGroup",
-        "springKind", "vertVel", "prescribedPaths", "\"stiffness\""}) {
+        "springKind", "springRestLength", "vertVel", "prescribedPaths",
+        "\"stiffness\""}) {
     EXPECT_EQ(text.find(key), std::string::npos) << key;
   }
 }
@@ -321,6 +327,8 @@ TEST(SceneIo, WrongTypesAreNamedWithPathValueAndWhatIsAccepted) {
       {"[0, 1, 1, 2]", "[0, 1, 1]", "objects[0].springs", "array of 3", "pairs"},
       {"[0, 1, 1, 2]", "[0, 1, -1, 2]", "objects[0].springs[2]", "-1", "from 0"},
       {"[0, 1, 1, 2]", "{}", "objects[0].springs", "an object", "array"},
+      {"\"nL\"", "\"nL\", \"springRestLength\": [1, \"long\"]",
+       "objects[0].springRestLength[1]", "long", "finite number"},
       {"[0, 1, 2]", "[0, 1, 2, 0]", "objects[0].triangles", "array of 4", "triples"},
       {"\"nL\"", "\"nLx\"", "objects[0].optimizationSettings", "nLx", "two letters"},
       {"\"nL\"", "\"nQ\"", "objects[0].optimizationSettings", "Q", "R (one per group)"},

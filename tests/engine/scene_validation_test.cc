@@ -125,6 +125,27 @@ TEST(SceneValidation, RefusesWrongSpringsAndTriangles) {
        "objects[0].springStiffness[1]", "-1.0", ">= 0 N/m"},
       {"stiffness inf", [](Scene* s) { Cloth(s).stiffness[0] = kInfinity; },
        "objects[0].springStiffness[0]", "inf", "finite"},
+      {"no length in vertPos, whatever the length at rest",
+       [](Scene* s) {
+         Cloth(s).rest_length = Eigen::Vector2d(1.0, 1.0);
+         Cloth(s).positions.segment<3>(3).setZero();
+       },
+       "objects[0].springs[0]", "the pair 0, 1 of length 0.0 m", "1e-9 m"},
+      {"rest length zero",
+       [](Scene* s) { Cloth(s).rest_length = Eigen::Vector2d(1.0, 0.0); },
+       "objects[0].springRestLength[1]", "0.0", "> 1e-9 m"},
+      {"rest length negative",
+       [](Scene* s) { Cloth(s).rest_length = Eigen::Vector2d(-1.0, 1.0); },
+       "objects[0].springRestLength[0]", "-1.0", "> 1e-9 m"},
+      {"rest length nan",
+       [](Scene* s) { Cloth(s).rest_length = Eigen::Vector2d(1.0, kNan); },
+       "objects[0].springRestLength[1]", "nan", "finite"},
+      {"rest length inf",
+       [](Scene* s) { Cloth(s).rest_length = Eigen::Vector2d(kInfinity, 1.0); },
+       "objects[0].springRestLength[0]", "inf", "finite"},
+      {"initial positions without rest lengths",
+       [](Scene* s) { Cloth(s).estimate_initial_position = true; },
+       "objects[0].estimate.initialPosition", "true", "springRestLength"},
       {"triangle index",
        [](Scene* s) {
          Cloth(s).triangles[0] = {0, 1, 7};
@@ -151,6 +172,8 @@ TEST(SceneValidation, RefusesLengthsThatDisagree) {
        "objects[0].vertVel", "2 entries", "3, one per vertex"},
       {"stiffness", [](Scene* s) { Cloth(s).stiffness = Eigen::VectorXd::Ones(1); },
        "objects[0].springStiffness", "1 entries", "2, one per pair"},
+      {"rest length", [](Scene* s) { Cloth(s).rest_length = Eigen::VectorXd::Ones(3); },
+       "objects[0].springRestLength", "3 entries", "2, one per pair"},
       {"spring group", [](Scene* s) { Cloth(s).spring_group = {1}; },
        "objects[0].springGroup", "1 entries", "2, one per pair"},
       {"spring kind", [](Scene* s) { Cloth(s).spring_kind = {SpringKind::kBend}; },

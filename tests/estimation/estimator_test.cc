@@ -69,6 +69,7 @@ TEST(EstimatorTest, LmFindsTheParametersFromAPerturbedStart) {
   options.init = InitMethod::kScene;
   options.init_perturbation = 0.3;
   options.seed = 4;
+  options.horizon = Horizon::kFull;
   std::vector<IterationReport> reports;
   options.progress = [&](const IterationReport& r) { reports.push_back(r); };
   const EstimatorSummary summary =

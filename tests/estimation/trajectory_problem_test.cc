@@ -7,12 +7,16 @@
 #include <string>
 #include <utility>
 
+#include "ceres_support.h"
 #include "dpe/engine/simulator.h"
 #include "support/derivative_checker.h"
 #include "support/test_scenes.h"
 
 namespace dpe {
 namespace {
+
+using test::CeresJacobianTimes;
+using test::CeresResiduals;
 
 constexpr int kFrames = 8;
 
@@ -33,35 +37,6 @@ Scene SceneWithEverythingEstimated(const std::string& name) {
 
 Eigen::VectorXd StartOf(const Scene& scene, TrajectoryEvaluator* evaluator) {
   return evaluator->map().ToCoordinates(evaluator->layout().Extract(scene));
-}
-
-// Residuals as Ceres gets them from the cost functions.
-Eigen::VectorXd CeresResiduals(TrajectoryProblem* problem, const Eigen::VectorXd& q) {
-  problem->set_coordinates(q);
-  std::vector<double> residuals;
-  EXPECT_TRUE(
-      problem->least_squares()->Evaluate({}, nullptr, &residuals, nullptr, nullptr));
-  return Eigen::Map<Eigen::VectorXd>(residuals.data(), residuals.size());
-}
-
-// The product of Ceres's Jacobian (rows and columns compressed) with a vector.
-Eigen::VectorXd CeresJacobianTimes(TrajectoryProblem* problem, const Eigen::VectorXd& q,
-                                   const Eigen::VectorXd& direction) {
-  problem->set_coordinates(q);
-  ceres::Problem::EvaluateOptions options;
-  for (size_t b = 0; b < problem->layout().blocks().size(); ++b) {
-    options.parameter_blocks.push_back(problem->block_coordinates(static_cast<int>(b)));
-  }
-  ceres::CRSMatrix jacobian;
-  EXPECT_TRUE(problem->least_squares()->Evaluate(options, nullptr, nullptr, nullptr,
-                                                 &jacobian));
-  Eigen::VectorXd product = Eigen::VectorXd::Zero(jacobian.num_rows);
-  for (int row = 0; row < jacobian.num_rows; ++row) {
-    for (int k = jacobian.rows[row]; k < jacobian.rows[row + 1]; ++k) {
-      product[row] += jacobian.values[k] * direction[jacobian.cols[k]];
-    }
-  }
-  return product;
 }
 
 class TrajectoryProblemTest

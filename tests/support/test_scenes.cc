@@ -72,7 +72,8 @@ void EstimateEverything(ParameterMode mode, Scene* scene) {
   for (ClothObject& object : scene->objects) {
     object.mass_mode = object.stiffness_mode = mode;
     object.estimate_damping = object.estimate_drag = true;
-    object.estimate_initial_velocity = true;
+    object.estimate_initial_velocity = object.estimate_initial_position = true;
+    object.rest_length = RestLengths(object);
   }
   scene->estimate_wind = true;
 }

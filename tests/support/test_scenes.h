@@ -19,7 +19,8 @@ const std::vector<std::string>& DerivativeSceneNames();
 Scene MakeDerivativeScene(const std::string& name, int resolution);
 
 // Marks every kind of parameter as estimated: mass and stiffness with the given mode,
-// damping, drag, wind and initial velocities.
+// damping, drag, wind, initial velocities and positions (with rest lengths as they
+// are).
 void EstimateEverything(ParameterMode mode, Scene* scene);
 
 // Multiplies masses, stiffnesses, damping and drag by exp(0.2 N(0,1)), adds wind and

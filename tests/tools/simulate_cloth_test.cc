@@ -5,6 +5,8 @@
 
 #include "dpe/engine/scene_io.h"
 #include "dpe/engine/simulator.h"
+#include "dpe/estimation/attach.h"
+#include "dpe/estimation/capture.h"
 #include "dpe/estimation/trajectory_io.h"
 #include "support/run_program.h"
 #include "support/temp_dir.h"
@@ -42,6 +44,37 @@ TEST_F(SimulateClothTest, WritesWhatTheSimulatorSays) {
   for (int object = 0; object < 2; ++object) {
     EXPECT_EQ(read.positions[object], expected.positions[object]);
   }
+}
+
+TEST_F(SimulateClothTest, WritesTheFormatAskedFor) {
+  const Trajectory expected = Simulator(scene_).Simulate(5);
+  const auto expect = [&](const std::string& output, const std::string& format,
+                          const std::string& is) {
+    const ProgramResult result = RunProgram(
+        "simulate_cloth",
+        {"--scene=" + path_, "--frames=5", "--output=" + output, "--format=" + format});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("5 frames to"));
+    Capture capture = ReadCapture(output);
+    EXPECT_EQ(capture.format, is);
+    ToSceneUnits({}, scene_.delta, &capture);
+    const Observations read = AttachCapture(capture, scene_);
+    for (int object = 0; object < 2; ++object) {
+      EXPECT_TRUE(read.positions[object].isApprox(expected.positions[object], 1e-6));
+    }
+  };
+  expect(folder_.File("out.npy"), "auto", "NPY");
+  expect(folder_.File("out.dat"), "pc2", "PC2");
+  expect(folder_.File("out.npy"), "csv", "CSV");
+  expect(folder_.File("frames/cloth_*.obj"), "auto", "OBJ");
+  const ProgramResult shorter =
+      RunProgram("simulate_cloth", {"--scene=" + path_, "--frames=4",
+                                    "--output=" + folder_.File("frames/cloth_*.obj")});
+  EXPECT_EQ(shorter.exit_code, 1);
+  EXPECT_THAT(shorter.err, HasSubstr("cloth_0004.obj"));
+  const ProgramResult unknown = Run({"--format=bvh"});
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("--format"), HasSubstr("bvh")));
 }
 
 TEST_F(SimulateClothTest, FlagsTakeTheSceneValuesPlace) {

@@ -70,8 +70,8 @@ void PrintBlocks(const EstimationInput& input, const EstimatorSummary& summary) 
 }  // namespace
 
 void ProgressTable::PrintHeader() const {
-  std::printf("%9s %12s %12s %10s %9s\n", "iteration", "cost (m^2)", "RMS (m)", "step",
-              "time (s)");
+  std::printf("%9s %7s %12s %12s %10s %9s\n", "iteration", "frames", "cost", "RMS (m)",
+              "step", "time (s)");
   std::fflush(stdout);
 }
 
@@ -83,9 +83,9 @@ void ProgressTable::PrintIteration(const IterationReport& report) {
   const std::lock_guard<std::mutex> lock(mutex_);
   EraseLine();
   line_is_drawn_ = false;
-  std::printf("%9d %12.5g %12.5g %10.3g %9.2f%s\n", report.iteration, report.cost,
-              report.rms, report.step_norm, report.seconds,
-              report.step_accepted ? "" : "  rejected");
+  std::printf("%9d %7d %12.5g %12.5g %10.3g %9.2f%s\n", report.iteration,
+              report.num_frames, report.cost, report.rms, report.step_norm,
+              report.seconds, report.step_accepted ? "" : "  rejected");
   std::fflush(stdout);
   next_iteration_ = report.iteration + 1;
   last_tick_ = report.seconds;

@@ -61,15 +61,10 @@ class AdjointSweep {
   }
 
   void Finish(RowMajorMatrix* jacobian) {
-    const ParameterColumns& local = system_.local_columns();
     const std::vector<int>& columns = system_.columns().used();
     for (AdjointBlock& block : blocks_) {
-      for (int c = 0; c < system_.num_coordinates(); ++c) {
-        const int column = local.Column(ParameterKind::kInitialVelocity, c);
-        if (column < 0) continue;
-        const int node = system_.node_of_vertex()[c / 3];
-        block.gradient.row(column) += block.wv.row(3 * node + c % 3);
-      }
+      AddInitialState(ParameterKind::kInitialPosition, block.wx, &block.gradient);
+      AddInitialState(ParameterKind::kInitialVelocity, block.wv, &block.gradient);
       for (size_t k = 0; k < block.rows.size(); ++k) {
         for (size_t c = 0; c < columns.size(); ++c) {
           (*jacobian)(block.rows[k], columns[c]) += block.gradient(c, k);
@@ -79,6 +74,19 @@ class AdjointSweep {
   }
 
  private:
+  // gradient += the adjoint of the initial state, where that is a parameter.
+  void AddInitialState(ParameterKind kind, const RowMajorMatrix& adjoint,
+                       RowMajorMatrix* gradient) const {
+    const ParameterColumns& local = system_.local_columns();
+    if (!local.Has(kind)) return;
+    for (int c = 0; c < system_.num_coordinates(); ++c) {
+      const int column = local.Column(kind, c);
+      if (column < 0) continue;
+      const int node = system_.node_of_vertex()[c / 3];
+      gradient->row(column) += adjoint.row(3 * node + c % 3);
+    }
+  }
+
   void MakeBlocks(const StateDerivatives& derivatives) {
     const int n = system_.pattern().num_rows();
     for (RowGroup& group : GroupRows(derivatives)) {

@@ -41,8 +41,10 @@ bool ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl_dx,
   }
   const ParameterColumns& local = system->local_columns();
   for (int c = 0; c < n; ++c) {
-    const int column = local.Column(ParameterKind::kInitialVelocity, c);
-    if (column >= 0) (*gradient)[column] += gv[c];
+    const int of_x = local.Column(ParameterKind::kInitialPosition, c);
+    if (of_x >= 0) (*gradient)[of_x] += gx[c];
+    const int of_v = local.Column(ParameterKind::kInitialVelocity, c);
+    if (of_v >= 0) (*gradient)[of_v] += gv[c];
   }
   return true;
 }

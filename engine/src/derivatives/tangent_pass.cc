@@ -32,7 +32,8 @@ class TangentSweep {
       block.count = std::min(kPassBlock, num_directions_ - first);
       block.dx = RowMajorMatrix::Zero(system_.pattern().num_rows(), block.count);
       block.dv = block.dv_next = block.dx;
-      SeedInitialVelocity(&block);
+      SeedInitialState(ParameterKind::kInitialPosition, block, &block.dx);
+      SeedInitialState(ParameterKind::kInitialVelocity, block, &block.dv);
       blocks_.push_back(std::move(block));
     }
   }
@@ -57,14 +58,15 @@ class TangentSweep {
   }
 
  private:
-  void SeedInitialVelocity(TangentBlock* block) const {
+  // state := the seed of the initial state, where that is a parameter.
+  void SeedInitialState(ParameterKind kind, const TangentBlock& block,
+                        RowMajorMatrix* state) const {
     const ParameterColumns& local = system_.local_columns();
-    if (!local.Has(ParameterKind::kInitialVelocity)) return;
+    if (!local.Has(kind)) return;
     for (int c = 0; c < system_.num_coordinates(); ++c) {
-      const int column = local.Column(ParameterKind::kInitialVelocity, c);
+      const int column = local.Column(kind, c);
       if (column < 0) continue;
-      AddSeed({3 * system_.node_of_vertex()[c / 3] + c % 3, column, 1.0}, *block,
-              &block->dv);
+      AddSeed({3 * system_.node_of_vertex()[c / 3] + c % 3, column, 1.0}, block, state);
     }
   }
 

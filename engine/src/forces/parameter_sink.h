@@ -16,7 +16,7 @@ namespace dpe {
 // a parameter.
 class ParameterColumns {
  public:
-  static constexpr int kNumKinds = 6;
+  static constexpr int kNumKinds = 7;
 
   // Columns are numbered by the layout's own offsets.
   ParameterColumns(const ParameterLayout& layout, int object);

@@ -163,14 +163,13 @@ void ParameterLoop(const SpringLaw::Batch& __restrict batch, LoopFlags flags,
 
 SpringLaw::SpringLaw(const ClothObject& object, const ObjectParameters* parameters)
     : parameters_(parameters) {
+  const Eigen::VectorXd rest_lengths = RestLengths(object);
   for (int s = 0; s < object.num_springs(); ++s) {
     const auto [a, b] = object.springs[s];
     if (object.is_fixed[a] && object.is_fixed[b]) continue;
     elements_.push_back({a, b});
     springs_.push_back(s);
-    rest_lengths_.push_back(
-        (object.positions.segment<3>(3 * a) - object.positions.segment<3>(3 * b))
-            .norm());
+    rest_lengths_.push_back(rest_lengths[s]);
   }
   PadToBatches(&springs_);
   PadToBatches(&rest_lengths_);

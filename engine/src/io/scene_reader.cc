@@ -5,7 +5,9 @@
 //   collider  type, pos
 //   vector    x, y, z
 // Everything else has a default: that of the fields in scene.h, "nn" for
-// optimizationSettings, all vertices free for vertIsFixed.
+// optimizationSettings, all vertices free for vertIsFixed. springRestLength (m, one per
+// spring) is for cloths whose vertPos is not at rest; without it, the springs are at
+// rest there.
 #include "io/scene_reader.h"
 
 #include <string>
@@ -106,8 +108,8 @@ class SceneReader {
     node.WarnOfUnknownKeys({"vertPos", "vertIsFixed", "vertMass", "springs",
                             "springStiffness", "triangles", "dragCoefficient",
                             "damping", "optimizationSettings", "springGroup",
-                            "vertexGroup", "springKind", "estimate", "vertVel",
-                            "prescribedPaths"});
+                            "vertexGroup", "springKind", "springRestLength", "estimate",
+                            "vertVel", "prescribedPaths"});
     ClothObject object;
     ReadVertices(node, &object);
     ReadSprings(node, &object);
@@ -149,6 +151,9 @@ class SceneReader {
     }
     if (const auto stiffness = node.Find("springStiffness")) {
       object->stiffness = stiffness->AsNumbers();
+    }
+    if (const auto rest_length = node.Find("springRestLength")) {
+      object->rest_length = rest_length->AsNumbers();
     }
     if (const auto group = node.Find("springGroup")) {
       object->spring_group = group->AsInts(0);
@@ -201,7 +206,9 @@ class SceneReader {
       ReadIfGiven(*estimate, "damping", &object->estimate_damping);
       ReadIfGiven(*estimate, "dragCoefficient", &object->estimate_drag);
       ReadIfGiven(*estimate, "initialVelocity", &object->estimate_initial_velocity);
-      estimate->WarnOfUnknownKeys({"damping", "dragCoefficient", "initialVelocity"});
+      ReadIfGiven(*estimate, "initialPosition", &object->estimate_initial_position);
+      estimate->WarnOfUnknownKeys(
+          {"damping", "dragCoefficient", "initialVelocity", "initialPosition"});
     }
   }
 

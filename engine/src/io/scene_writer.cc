@@ -106,6 +106,9 @@ std::string PathText(const PrescribedPath& path) {
 }
 
 void AddOptional(const ClothObject& object, Members* members) {
+  if (object.rest_length.size() > 0) {
+    members->Add("springRestLength", Array(object.rest_length));
+  }
   if (!object.spring_group.empty()) {
     members->Add("springGroup", Array(object.spring_group));
   }
@@ -121,7 +124,8 @@ void AddOptional(const ClothObject& object, Members* members) {
   const std::string estimate =
       FlagsText({{"damping", object.estimate_damping},
                  {"dragCoefficient", object.estimate_drag},
-                 {"initialVelocity", object.estimate_initial_velocity}});
+                 {"initialVelocity", object.estimate_initial_velocity},
+                 {"initialPosition", object.estimate_initial_position}});
   if (!estimate.empty()) members->Add("estimate", estimate);
   if (!IsPlusZero(object.velocities)) {
     members->Add("vertVel", VectorArray(object.velocities));

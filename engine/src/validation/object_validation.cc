@@ -34,6 +34,7 @@ class ObjectChecker {
     CheckIndices("triangles", object_.triangles);
     CheckTriangles();
     CheckScalars();
+    CheckInitialPosition();
     CheckPaths();
     WarnOfDuplicateSprings();
     WarnOfLooseVertices();
@@ -66,6 +67,10 @@ class ObjectChecker {
     }
     report_.RequireSize(Path("springStiffness"), object_.stiffness.size(), num_springs,
                         per_spring);
+    if (object_.rest_length.size() > 0) {
+      report_.RequireSize(Path("springRestLength"), object_.rest_length.size(),
+                          num_springs, per_spring);
+    }
     if (!object_.vertex_group.empty()) {
       report_.RequireSize(Path("vertexGroup"), object_.vertex_group.size(), n,
                           per_vertex);
@@ -144,6 +149,12 @@ class ObjectChecker {
                      "a finite stiffness >= 0 N/m");
       }
     }
+    for (long s = 0; s < object_.rest_length.size(); ++s) {
+      const double length = object_.rest_length[s];
+      if (length > kMinSpringLength && std::isfinite(length)) continue;
+      report_.Fail(At(Path("springRestLength"), s), NumberText(length),
+                   "a finite length > 1e-9 m");
+    }
     CheckGroups("springGroup", object_.spring_group);
     CheckGroups("vertexGroup", object_.vertex_group);
   }
@@ -176,6 +187,18 @@ class ObjectChecker {
                                "a finite number >= 0 (1/s)");
     report_.RequireNotNegative(Path("dragCoefficient"), object_.drag_coefficient,
                                "a finite number >= 0");
+  }
+
+  // Else the springs' rest lengths would change with what is estimated.
+  void CheckInitialPosition() const {
+    if (!object_.estimate_initial_position || object_.springs.empty() ||
+        object_.rest_length.size() > 0) {
+      return;
+    }
+    report_.Fail(
+        Path("estimate.initialPosition"), "true",
+        "springRestLength beside it: vertPos cannot be estimated and say where "
+        "springs are at rest");
   }
 
   void CheckPaths() const {

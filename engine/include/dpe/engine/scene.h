@@ -59,13 +59,16 @@ struct PrescribedPath {
 };
 
 struct ClothObject {
-  Eigen::VectorXd positions;   // 3N, xyz interleaved, m; also the rest shape
+  // 3N, xyz interleaved, m; where the motion starts, and the rest shape unless
+  // rest_length is given
+  Eigen::VectorXd positions;
   Eigen::VectorXd velocities;  // 3N, m/s; initial velocities, zero unless given
   std::vector<char> is_fixed;  // N, 1 where the vertex is not an unknown
   Eigen::VectorXd mass;        // N, kg; positive where the vertex is free
 
   std::vector<std::array<int, 2>> springs;
-  Eigen::VectorXd stiffness;            // one per spring, N/m, >= 0
+  Eigen::VectorXd stiffness;    // one per spring, N/m, >= 0
+  Eigen::VectorXd rest_length;  // one per spring, m, > 0, or empty: see RestLengths
   std::vector<SpringKind> spring_kind;  // one per spring, or empty: not given
   std::vector<int> spring_group;        // one per spring, or empty: spring_kind decides
   std::vector<int> vertex_group;        // one per vertex, or empty: one group
@@ -80,6 +83,7 @@ struct ClothObject {
   bool estimate_damping = false;
   bool estimate_drag = false;
   bool estimate_initial_velocity = false;
+  bool estimate_initial_position = false;  // needs rest_length: no parameter moves it
 
   int num_vertices() const { return static_cast<int>(is_fixed.size()); }
   int num_springs() const { return static_cast<int>(springs.size()); }
@@ -129,6 +133,10 @@ void ApplySettings(const std::string& settings, Scene* scene);
 
 // The two letters of every object, separated by commas, trailing "nn" left out.
 std::string SettingsString(const Scene& scene);
+
+// The rest length of each spring, m: `rest_length`, else the distance of its vertices
+// in `positions`.
+Eigen::VectorXd RestLengths(const ClothObject& object);
 
 // The group of each spring used by mode R: `spring_group`, else one group per kind
 // present in `spring_kind`, else all 0.

@@ -24,6 +24,8 @@ struct EstimationJob {
   int num_validation_frames = 0;  // to compare after the fit; 0: none
   double noise_sigma = 0.0;       // m, added to the target, see AddNoise
   std::uint64_t noise_seed = 0;
+  // m, of the noise on each coordinate where the target names none; 0: noise_sigma
+  double sigma = 0.0;
   std::string output_dir;  // empty: results/<scene>_<settings>
   EstimatorOptions options;
 };

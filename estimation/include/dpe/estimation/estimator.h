@@ -13,6 +13,7 @@
 #include "dpe/engine/sensitivity.h"
 #include "dpe/engine/trajectory.h"
 #include "dpe/estimation/observations.h"
+#include "dpe/estimation/robust_loss.h"
 
 namespace dpe {
 
@@ -28,11 +29,27 @@ enum class InitMethod {
   kScreen,           // log-spaced trial values on a short horizon, the best one
 };
 
+// Over which frames the optimiser works its way to all of them.
+enum class Horizon {
+  kAuto,  // grow with LM from a start that has not seen the motion, else full
+  kFull,  // all at once
+  kGrow,  // the first few frames, then more and more, each from the one before
+};
+
+// One horizon that a fit went through on its way.
+struct HorizonStage {
+  int num_frames = 0;
+  int iterations = 0;
+  double start_rms = 0.0;  // m, NaN if the start could not be simulated
+  double final_rms = 0.0;  // m
+};
+
 // What a progress callback is told after every iteration.
 struct IterationReport {
   int iteration = 0;
-  double cost = 0.0;       // 1/2 sum of squares, m^2
-  double rms = 0.0;        // m
+  int num_frames = 0;      // of the horizon that is being fitted
+  double cost = 0.0;       // 1/2 sum of squared residuals
+  double rms = 0.0;        // m, of the best point so far
   double step_norm = 0.0;  // in the optimiser's (log) coordinates
   double gradient_max_norm = 0.0;
   double seconds = 0.0;  // since the start
@@ -58,6 +75,13 @@ struct EstimatorOptions {
   // What the fit's rollouts may keep beyond their trajectories, see SimulatorOptions.
   std::size_t memory_limit_bytes = SimulatorOptions().memory_limit_bytes;
   int num_frames = 0;  // frames to fit; <= 0: as many as were observed
+
+  // What an observation far from the model counts, and its scale in standard deviations
+  // of the noise (m where that is not known); 0: RobustLoss::DefaultScale.
+  LossType loss = LossType::kNone;
+  double loss_scale = 0.0;
+
+  Horizon horizon = Horizon::kAuto;
 
   // SolverType::kAuto takes LM as long as its dense Jacobian (8 bytes x residuals x
   // parameters; beside it LM keeps some twenty matrices of parameters x parameters)
@@ -114,12 +138,13 @@ struct EstimatorSummary {
   int evaluations = 0;           // rollouts
   int jacobian_evaluations = 0;  // derivative passes
   double wall_time_s = 0.0;
-  double initial_cost = 0.0;  // 1/2 sum of squares, m^2
+  double initial_cost = 0.0;  // 1/2 sum of squared residuals, see PositionCost
   double final_cost = 0.0;
   double initial_rms = 0.0;  // m
   double final_rms = 0.0;
   int num_frames = 0;
-  Eigen::VectorXd parameters;  // layout order, SI units
+  std::vector<HorizonStage> horizons;  // empty: all frames at once
+  Eigen::VectorXd parameters;          // layout order, SI units
   std::vector<EstimatedBlock> blocks;
   Scene scene;  // the input scene with the estimated values in it
 

@@ -51,6 +51,9 @@ struct Observations {
   // Frames that `positions` and `samples` reach into, frame 0 included.
   int num_frames() const;
   bool IsObserved(int object, int vertex, int frame) const;
+  // The noise of one vertex at one frame, of one sample, m; 0: not known.
+  double Sigma(int object, int vertex, int frame) const;
+  double Sigma(const MarkerSample& sample) const;
   // Number of (vertex, frame) pairs observed of one object.
   long NumObserved(int object) const;
   // True if every free vertex of `object` is observed at every frame.
@@ -60,14 +63,21 @@ struct Observations {
 // All positions of a trajectory, as if every vertex had been observed.
 Observations ObserveAll(const Trajectory& trajectory);
 
-// Adds independent normal noise to every coordinate of free vertices from frame 1 on
-// (frame 0, the initial state, is given by the scene).
+// Adds independent normal noise to every coordinate of free vertices and of markers
+// after frame 0 (which, the initial state, is given by the scene).
 // @param sigma  standard deviation per coordinate, m
 // @param seed   of a std::mt19937_64
 void AddNoise(const Scene& scene, double sigma, std::uint64_t seed, Observations* obs);
 
-// sqrt(sum |x - x_hat|^2 / number of observed vertex positions), m, over the first
-// `num_frames` frames of the objects that the trajectory holds; NaN without any.
+// Where a simulated marker is at `time` (in frames), by a cubic through the four
+// nearest of the first `num_frames` frames. The trajectory must hold the marker's
+// object.
+Eigen::Vector3d MarkerPosition(const Trajectory& trajectory, const Marker& marker,
+                               double time, int num_frames);
+
+// sqrt(sum |x - x_hat|^2 / number of observed positions), m, of vertices and of
+// markers, over the first `num_frames` frames of the objects that the trajectory holds;
+// NaN without any. Noise makes no difference to it: every observation counts the same.
 double RmsPositionError(const Trajectory& trajectory, const Observations& observations,
                         int num_frames);
 

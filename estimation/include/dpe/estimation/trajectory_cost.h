@@ -16,6 +16,7 @@
 #include "dpe/engine/sensitivity.h"
 #include "dpe/engine/trajectory.h"
 #include "dpe/estimation/observations.h"
+#include "dpe/estimation/robust_loss.h"
 
 namespace dpe {
 
@@ -57,36 +58,54 @@ class TrajectoryCost {
 
 using TrajectoryCosts = std::vector<std::unique_ptr<TrajectoryCost>>;
 
-// Simulated minus observed position, m, of every observed free vertex of the estimated
-// objects at one frame: three rows per vertex, by object, then vertex.
+struct PositionCostOptions {
+  LossType loss = LossType::kNone;
+  // Of the loss, in standard deviations of a coordinate's noise (in m where that is not
+  // known); 0: RobustLoss::DefaultScale.
+  double loss_scale = 0.0;
+};
+
+// Simulated minus observed position, three rows per observation, divided by the noise's
+// standard deviation where that is known (in m otherwise), as the loss makes them. Only
+// what the estimated objects' free vertices move counts.
+//
+// A residual is linear in the states that it reads (a selection of vertices, a
+// barycentric combination, an interpolation in time) until the loss bends it.
 class PositionCost : public TrajectoryCost {
  public:
-  // Null if no such vertex is observed at `frame`.
+  // The vertices observed at one frame, by object, then vertex. Null if there are none.
   static std::unique_ptr<PositionCost> Create(const Scene& scene,
                                               const Observations& observations,
-                                              int frame);
+                                              int frame,
+                                              const PositionCostOptions& options = {});
+
+  // The samples of markers from `frame` until before the next, in their order, by
+  // interpolation within the first `num_frames` frames. Null if there are none.
+  static std::unique_ptr<PositionCost> CreateFromSamples(
+      const Scene& scene, const Observations& observations, int frame, int num_frames,
+      const PositionCostOptions& options = {});
 
   bool Evaluate(const Trajectory& trajectory, double* residuals,
                 std::vector<StateDerivative>* derivatives) const override;
 
  private:
-  // The observed vertices of one object.
-  struct Part {
-    std::vector<int> vertices;
-    Eigen::VectorXd target;      // 3 per vertex, m
-    StateDerivative derivative;  // constant: selects the coordinates
-  };
+  PositionCost(Eigen::VectorXd target, std::vector<StateDerivative> terms,
+               const RobustLoss& loss);
 
-  PositionCost(int num_residuals, std::vector<StateReference> states,
-               std::vector<Part> parts);
-
-  std::vector<Part> parts_;
+  Eigen::VectorXd target_;              // in standard deviations (or m)
+  std::vector<StateDerivative> terms_;  // residual = sum of d_position x - target
+  RobustLoss loss_;
 };
 
-// One PositionCost per frame from 1 to num_frames - 1 in which anything was observed
+// The costs of all frames from 1 to num_frames - 1 in which anything was observed
 // (frame 0 is the given initial state: no parameter moves it).
+//
+// @throws SceneError if the noise is known of some observations and not of others:
+// their
+//         residuals could not be compared
 TrajectoryCosts MakePositionCosts(const Scene& scene, const Observations& observations,
-                                  int num_frames);
+                                  int num_frames,
+                                  const PositionCostOptions& options = {});
 
 }  // namespace dpe
 

@@ -1,10 +1,13 @@
-// Costs of a rollout as a function of the optimiser's coordinates q.
+// Costs of one or several rollouts as a function of the optimiser's coordinates q.
 //
-//   q -> p = map(q) -> states = rollout(p) -> r = costs(states)
+//   q -> p = map(q) -> states = rollouts(p) -> r = costs(states)
 //   dr/dq = dr/dstates * dstates/dp * dp/dq
 //
-// One rollout per new point, one derivative pass when derivatives are asked for,
-// whatever the number of costs; the last point's results are kept.
+// One rollout of every segment per new point, one derivative pass of each when
+// derivatives are asked for, whatever the number of costs; the last point's results are
+// kept. Segments (trajectory_segment.h) are worked on in parallel; the results are the
+// same for any number of threads, bit by bit, unless JacobianMethod::kAuto decides
+// differently for them.
 #ifndef DPE_ESTIMATION_TRAJECTORY_EVALUATOR_H_
 #define DPE_ESTIMATION_TRAJECTORY_EVALUATOR_H_
 
@@ -18,19 +21,30 @@
 #include "dpe/engine/scene.h"
 #include "dpe/engine/sensitivity.h"
 #include "dpe/engine/simulator.h"
+#include "dpe/estimation/joint_layout.h"
 #include "dpe/estimation/parameterization.h"
 #include "dpe/estimation/trajectory_cost.h"
+#include "dpe/estimation/trajectory_segment.h"
 
 namespace dpe {
 
 struct TrajectoryEvaluatorOptions {
   JacobianMethod jacobian = JacobianMethod::kAuto;
   int num_threads = 1;
+  // Of all segments together.
   std::size_t memory_limit_bytes = SimulatorOptions().memory_limit_bytes;
   Timings* timings = nullptr;  // both as in SimulatorOptions
-  // Polled once per step; true makes the evaluation in progress fail.
+  // Whether each segment has a wind of its own to be estimated, or all have the same.
+  bool own_wind = false;
+  // Polled once per step, by several threads; true makes the evaluation in progress
+  // fail.
   std::function<bool()> interrupted;
+  // Called after every evaluation whose cost is the least so far.
+  std::function<void()> improved;
 };
+
+class SegmentRollout;
+class LinkCost;
 
 class TrajectoryEvaluator {
  public:
@@ -40,16 +54,34 @@ class TrajectoryEvaluator {
   TrajectoryEvaluator(const Scene& scene, TrajectoryCosts costs,
                       const TrajectoryEvaluatorOptions& options = {});
 
+  // Several segments of the same cloths (see joint_layout.h), and what links them.
+  // @throws SceneError as above, and if the cloths are not the same or a link does not
+  //         fit the segments
+  TrajectoryEvaluator(std::vector<TrajectorySegment> segments,
+                      std::vector<SegmentLink> links = {},
+                      const TrajectoryEvaluatorOptions& options = {});
+  ~TrajectoryEvaluator();
+
   const TrajectoryEvaluatorOptions& options() const { return options_; }
-  const ParameterLayout& layout() const { return simulator_.layout(); }
+  // Of the parameters of all segments.
+  const JointLayout& joint_layout() const { return *joint_; }
+  const ParameterLayout& layout() const { return joint_->layout(); }
   const ParameterMap& map() const { return map_; }
-  const TrajectoryCosts& costs() const { return costs_; }
-  Simulator* simulator() { return &simulator_; }
+  int num_segments() const { return static_cast<int>(segments_.size()); }
   int num_parameters() const { return map_.size(); }
   int num_residuals() const { return static_cast<int>(residuals_.size()); }
-  int num_frames() const { return num_frames_; }
-  // First row of a cost in residuals() and jacobian().
+
+  // The costs of all segments: those of the first, the links from it, those of the
+  // second, and so on.
+  const TrajectoryCosts& costs() const { return costs_; }
+  int segment_of_cost(int cost) const { return segment_of_cost_[cost]; }
+  // First row of a cost in residuals().
   int first_row(int cost) const { return first_rows_[cost]; }
+  // First row of a segment's costs there, its jacobian()'s row 0.
+  int first_row_of_segment(int segment) const { return segment_rows_[segment]; }
+
+  Simulator* simulator(int segment = 0);
+  int num_frames(int segment = 0) const;
 
   // Rolls out and evaluates the residuals, unless `coordinates` are those of the last
   // call. False if the rollout or a cost failed; message() says why.
@@ -57,6 +89,7 @@ class TrajectoryEvaluator {
 
   // The cost over a shorter horizon: of those costs that read only frames below
   // `num_frames`. False if the rollout or a cost failed. Not remembered as a point.
+  // Without links.
   bool CostOverHorizon(const Eigen::VectorXd& coordinates, int num_frames,
                        double* cost);
 
@@ -69,9 +102,13 @@ class TrajectoryEvaluator {
 
   // Results of the last successful calls.
   const Eigen::VectorXd& residuals() const { return residuals_; }
-  const RowMajorMatrix& jacobian() const { return jacobian_; }
+  // The rows of one segment; columns are those of its own layout: what other segments
+  // alone have is zero. With one segment, dr/dq.
+  const RowMajorMatrix& jacobian(int segment = 0) const;
+  // dr/dq with all its zeros, num_residuals() x num_parameters().
+  RowMajorMatrix DenseJacobian() const;
   double cost() const { return 0.5 * residuals_.squaredNorm(); }
-  const Trajectory& trajectory() const { return rollout_.trajectory(); }
+  const Trajectory& trajectory(int segment = 0) const;
   bool ok() const { return ok_; }
   const std::string& message() const { return message_; }
 
@@ -81,31 +118,53 @@ class TrajectoryEvaluator {
 
   int num_rollouts() const { return num_rollouts_; }
   int num_derivative_passes() const { return num_derivative_passes_; }
-  // "tangent" or "adjoint": what EvaluateJacobian uses for these costs.
+  // Sets the weights of a link; what was known of any point is forgotten, the best one
+  // too.
+  void SetLinkWeights(int link, double position_weight, double velocity_weight);
+  int num_links() const { return static_cast<int>(links_.size()); }
+
+  // One row of a link: the parameter that it subtracts `weight` times.
+  struct LinkTerm {
+    int parameter = 0;  // joint
+    double weight = 0.0;
+  };
+  // Those of a cost's rows; empty if the cost is not a link's.
+  std::vector<LinkTerm> LinkTerms(int cost) const;
+  // The segment that the cost's link leads to; -1 if it is not a link's.
+  int LinkTarget(int cost) const;
+
+  // "tangent" or "adjoint": what EvaluateJacobian uses for the first segment's costs.
   std::string JacobianMethodName();
 
  private:
-  bool EvaluateCosts();
+  struct Link {
+    int cost = 0;  // index into costs_
+    int to = 0;
+    LinkCost* state = nullptr;    // costs_[cost]
+    std::vector<int> parameters;  // joint, one per row
+  };
+
+  void MakeSegments(std::vector<TrajectorySegment> segments,
+                    const std::vector<SegmentLink>& links);
+  void SubtractLinkTargets(const Eigen::VectorXd& parameters);
+  const Link* FindLink(int cost) const;
+  bool AllOk(const std::vector<char>& ok);
   bool Fail(const std::string& message);
-  const std::vector<StateDerivative>& StateDerivatives();
+  void Forget();
 
   TrajectoryEvaluatorOptions options_;
-  Simulator simulator_;
-  ParameterMap map_;
   TrajectoryCosts costs_;
-  std::vector<int> first_rows_;
-  std::vector<int> last_frames_;  // the last frame that each cost reads
-  int num_frames_ = 1;
+  std::vector<int> segment_of_cost_, first_rows_, segment_rows_;
+  std::vector<std::unique_ptr<SegmentRollout>> segments_;
+  std::vector<Link> links_;
+  std::unique_ptr<JointLayout> joint_;
+  ParameterMap map_;
 
   Eigen::VectorXd coordinates_;  // of the last evaluation
   bool ok_ = false;
   std::string message_ = "nothing was evaluated yet";
-  Rollout rollout_;
   Eigen::VectorXd residuals_;
-  RowMajorMatrix jacobian_;
   bool jacobian_is_current_ = false;
-  std::vector<StateDerivative> state_derivatives_;
-  bool state_derivatives_are_current_ = false;
 
   Eigen::VectorXd best_coordinates_;
   double best_cost_;

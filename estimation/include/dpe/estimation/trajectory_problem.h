@@ -1,13 +1,14 @@
 // Trajectory costs as Ceres sees them.
 //
-// Every TrajectoryCost is one ceres::CostFunction over the scene's parameter blocks
-// (one ceres block per ParameterBlock, in the coordinates of ParameterMap). One
-// ceres::EvaluationCallback runs the rollout, and the derivative pass when Jacobians
-// are asked for; the cost functions only copy from it. A rollout that fails makes them
-// return false, which Ceres takes as a rejected step. So does a trial step that changes
-// a positive parameter by more than a factor of kMaxFactor: a linear model in the
-// logarithm says nothing that far away, and what lies there is mostly flat, so that an
-// optimiser would not find back.
+// Every TrajectoryCost is one ceres::CostFunction over those parameter blocks that its
+// segment's motion depends on (one ceres block per ParameterBlock of the joint layout,
+// in the coordinates of ParameterMap), a link's also over the initial state that it
+// leads to. One ceres::EvaluationCallback runs the rollouts, and the derivative passes
+// when Jacobians are asked for; the cost functions only copy from it. A rollout that
+// fails makes them return false, which Ceres takes as a rejected step. So does a trial
+// step that changes a positive parameter by more than a factor of kMaxFactor: a linear
+// model in the logarithm says nothing that far away, and what lies there is mostly
+// flat, so that an optimiser would not find back.
 #ifndef DPE_ESTIMATION_TRAJECTORY_PROBLEM_H_
 #define DPE_ESTIMATION_TRAJECTORY_PROBLEM_H_
 
@@ -15,6 +16,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "dpe/estimation/trajectory_evaluator.h"
 
@@ -25,8 +27,11 @@ class TrajectoryProblem : private ceres::EvaluationCallback {
   // The largest change of a positive parameter in one least-squares step.
   static constexpr double kMaxFactor = 100.0;
 
-  // As the constructor of TrajectoryEvaluator.
+  // As the constructors of TrajectoryEvaluator.
   TrajectoryProblem(const Scene& scene, TrajectoryCosts costs,
+                    const TrajectoryEvaluatorOptions& options = {});
+  TrajectoryProblem(std::vector<TrajectorySegment> segments,
+                    std::vector<SegmentLink> links = {},
                     const TrajectoryEvaluatorOptions& options = {});
   TrajectoryProblem(const TrajectoryProblem&) = delete;
   TrajectoryProblem& operator=(const TrajectoryProblem&) = delete;
@@ -47,11 +52,12 @@ class TrajectoryProblem : private ceres::EvaluationCallback {
   ceres::Problem* least_squares() { return &least_squares_; }
 
   // The same problem, with further residual blocks as they stand at the call, losses,
-  // bounds and manifolds, rotated into one residual more than it has parameters: cost,
-  // gradient and J^T J are the same and an optimiser takes the same steps, but one that
-  // factorises J for every step, as DENSE_QR does, takes far less time and memory. Null
-  // if there are no more residuals than parameters. Must not outlive this; a residual
-  // by itself means nothing.
+  // bounds and manifolds, rotated into one residual more than it has parameters (or,
+  // where residuals of several segments depend on different blocks, than these have):
+  // cost, gradient and J^T J are the same and an optimiser takes the same steps, but
+  // one that factorises J for every step, as DENSE_QR does, takes far less time and
+  // memory. Null if there are no more residuals than parameters. Must not outlive this;
+  // a residual by itself means nothing.
   std::unique_ptr<ceres::Problem> NewReducedLeastSquares();
 
   // The same cost as one scalar function of all coordinates with its adjoint gradient;
@@ -59,6 +65,7 @@ class TrajectoryProblem : private ceres::EvaluationCallback {
   ceres::FirstOrderFunction* NewFirstOrderFunction();
 
  private:
+  void AddCosts();
   void PrepareForEvaluation(bool evaluate_jacobians, bool new_point) override;
   ceres::Problem::Options ProblemOptions();
   bool StepIsTooLong() const;

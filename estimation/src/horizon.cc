@@ -1,0 +1,104 @@
+#include "horizon.h"
+
+namespace dpe {
+namespace {
+
+// Of the first horizon; one more than a frame's accelerations, so that stiffnesses are
+// determined at all.
+constexpr int kFirstHorizon = 6;
+
+// A horizon is long if it has at least as many frames. A fit to a short one is only a
+// start for the next and ends when an iteration lowers the cost by less than this
+// fraction; one to a long one is carried through, because its answer, if it is exact,
+// is that of all longer ones, which cost more per iteration.
+constexpr int kLongHorizon = 48;
+constexpr double kShortFunctionTolerance = 0.1;
+
+class HorizonGrower {
+ public:
+  HorizonGrower(const Scene& blank, const Observations& observations,
+                OptimizerContext* context)
+      : blank_(blank),
+        observations_(observations),
+        options_(*context->options),
+        context_(context),
+        num_frames_(observations.num_frames()) {
+    stage_context_ = *context;
+    stage_context_.options = &options_;
+  }
+
+  GrownHorizon Run(const Eigen::VectorXd& start) {
+    result_.coordinates = start;
+    int solved = 1;  // frame 0 is given
+    int step = kFirstHorizon - 1;
+    while (solved + step < num_frames_ && !context_->stop->stopped()) {
+      if (Fit(solved + step)) {
+        solved += step;
+        result_.ok = true;
+        step = solved;
+      } else if (step > 1) {
+        step /= 2;
+      } else {
+        break;
+      }
+    }
+    return result_;
+  }
+
+ private:
+  // False if the start cannot be simulated over as many frames.
+  bool Fit(int num_frames) {
+    options_.function_tolerance = num_frames < kLongHorizon
+                                      ? kShortFunctionTolerance
+                                      : context_->options->function_tolerance;
+    FitProblem fit(blank_, observations_, num_frames, options_, context_->stop);
+    TrajectoryEvaluator* evaluator = fit.evaluator();
+    const bool ok = evaluator->Evaluate(result_.coordinates);
+    if (ok) {
+      HorizonStage stage;
+      stage.num_frames = num_frames;
+      stage.start_rms = fit.best_rms();
+      fit.problem()->set_coordinates(result_.coordinates);
+      const int iterations_before = context_->num_iterations;
+      if (!fit.IsAtRounding()) Minimise(&fit);
+      stage.iterations = context_->num_iterations - iterations_before;
+      stage.final_rms = fit.best_rms();
+      result_.coordinates = evaluator->best_coordinates();
+      result_.stages.push_back(stage);
+    } else {
+      result_.message = evaluator->message();
+    }
+    result_.num_rollouts += evaluator->num_rollouts();
+    result_.num_derivative_passes += evaluator->num_derivative_passes();
+    return ok;
+  }
+
+  void Minimise(FitProblem* fit) {
+    stage_context_.fit = fit;
+    stage_context_.num_iterations = context_->num_iterations;
+    stage_context_.first_iteration = context_->num_iterations;
+    if (ChooseSolver(*fit->evaluator(), options_).is_lm) {
+      MinimizeByLevenbergMarquardt(&stage_context_);
+    } else {
+      MinimizeByLbfgs(&stage_context_);
+    }
+    context_->num_iterations = stage_context_.num_iterations;
+  }
+
+  const Scene& blank_;
+  const Observations& observations_;
+  EstimatorOptions options_;
+  OptimizerContext* context_;
+  OptimizerContext stage_context_;
+  const int num_frames_;
+  GrownHorizon result_;
+};
+
+}  // namespace
+
+GrownHorizon GrowHorizon(const Scene& blank, const Observations& observations,
+                         const Eigen::VectorXd& start, OptimizerContext* context) {
+  return HorizonGrower(blank, observations, context).Run(start);
+}
+
+}  // namespace dpe

@@ -1,0 +1,41 @@
+// Growing the horizon: fits to the first few frames, then to more and more of them,
+// each started from the one before.
+//
+// A motion depends on its parameters the more strongly the longer it lasts, so that the
+// cost over many frames has many local minima, and over few frames one wide basin. What
+// the first frames determine is close enough to the answer for a few more. (With
+// L-BFGS, which stops far from the answer of each horizon, that is not so.)
+#ifndef DPE_ESTIMATION_HORIZON_H_
+#define DPE_ESTIMATION_HORIZON_H_
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dpe/engine/scene.h"
+#include "dpe/estimation/estimator.h"
+#include "dpe/estimation/observations.h"
+#include "optimizers.h"
+
+namespace dpe {
+
+struct GrownHorizon {
+  bool ok = false;              // false: not even the first frames could be fitted
+  std::string message;          // why not
+  Eigen::VectorXd coordinates;  // the start for all frames
+  std::vector<HorizonStage> stages;
+  int num_rollouts = 0;
+  int num_derivative_passes = 0;
+};
+
+// Fits horizons shorter than all observed frames.
+//
+// @param blank    the scene without its values of what is estimated
+// @param start    coordinates to start from; need only be simulated for a few frames
+// @param context  of the fit: options, stop and iterations are used
+GrownHorizon GrowHorizon(const Scene& blank, const Observations& observations,
+                         const Eigen::VectorXd& start, OptimizerContext* context);
+
+}  // namespace dpe
+
+#endif  // DPE_ESTIMATION_HORIZON_H_
