@@ -16,9 +16,50 @@
 
 DEFINE_string(scene, "", "Scene file (required).");
 DEFINE_string(target, "",
-              "CSV file with the observed motion (frame,vertex,x,y,z; missing rows are "
-              "missing observations). Without it the scene's own parameters make the "
-              "target, and then serve for nothing but the report of the deviation.");
+              "What was observed: CSV (frame,vertex,x,y,z or time,marker,x,y,z, with "
+              "sigma if known), TRC, a folder or pattern of OBJ files, PC2, or NumPy "
+              ".npy (frames x vertices x 3). Missing rows are missing observations. "
+              "Without it the scene's own parameters make the target, and then serve "
+              "for nothing but the report of the deviation.");
+DEFINE_double(target_scale, 0.0,
+              "Metres per unit of the target; 0: what the file says, else 1.");
+DEFINE_string(target_up, "y", "The target's axis that points up: y or z.");
+DEFINE_double(target_rate, 0.0,
+              "Frames per second of a target without times; 0: the scene's.");
+DEFINE_string(target_origin, "auto",
+              "When the scene begins: first (at the target's first sample), file (at "
+              "its time 0), or auto: file for frame numbers, else first.");
+DEFINE_bool(target_nan_is_missing, false,
+            "Take a position of three NaN as not observed; otherwise it is an error.");
+DEFINE_string(target_attach, "auto",
+              "What the target's markers are: vertex (named by number), position (the "
+              "nearest point of the cloth at the start), or auto.");
+DEFINE_int32(target_object, -1,
+             "The object that the target belongs to; -1: all, counted through.");
+DEFINE_string(marker_map, "",
+              "File of lines marker,vertex that says which vertex a marker is.");
+DEFINE_double(
+    marker_limit, 0.0,
+    "Greatest distance (m) of a marker from the cloth that it is attached to; "
+    "0: half the mean edge length of its triangles.");
+DEFINE_bool(follow_pins, false,
+            "Fixed vertices follow the target where it shows them.");
+DEFINE_string(initial_state, "scene",
+              "Where the vertices begin: scene, or target (its first frame, where it "
+              "shows them).");
+DEFINE_string(rest_shape, "",
+              "Where rest lengths come from instead of the scene: an OBJ file, or "
+              "uv[:SIZE] or uv[:U,V] for the target's texture coordinates, scaled to "
+              "metres.");
+DEFINE_string(estimate, "",
+              "More to estimate than --settings: damping, drag, wind, "
+              "initial_velocity, separated by commas.");
+DEFINE_string(
+    uncertainty, "auto",
+    "Error bars: on, off, or auto: if the noise is known or there are at most "
+    "100 parameters.");
+DEFINE_string(trajectory_format, "csv",
+              "Format of the fitted motion that is written: csv, obj, pc2 or npy.");
 DEFINE_string(
     settings, "",
     "What to estimate instead of what the scene says: two letters per object, "
@@ -46,8 +87,8 @@ DEFINE_double(init_perturbation, 0.0,
 DEFINE_string(
     horizon, "auto",
     "full: fit all frames at once; grow: fit the first few, then more and "
-    "more, each from the one before; auto: grow from --init=uniform and scene "
-    "with more than 3 parameters, else full.");
+    "more, each from the one before; auto: grow for more than 3 parameters and "
+    "lm, unless inverse dynamics gave the start; else full.");
 DEFINE_double(sigma, 0.0,
               "Standard deviation (m) of the noise on each observed coordinate, for "
               "observations that name none of their own; 0: --noise_sigma.");
@@ -141,6 +182,49 @@ void SetLossFromFlags(EstimatorOptions* options) {
   options->loss_scale = FLAGS_loss_scale;
 }
 
+UncertaintyMode UncertaintyFromFlag() {
+  if (FLAGS_uncertainty == "auto") return UncertaintyMode::kAuto;
+  if (FLAGS_uncertainty == "on") return UncertaintyMode::kOn;
+  if (FLAGS_uncertainty == "off") return UncertaintyMode::kOff;
+  Refuse("uncertainty", FLAGS_uncertainty, "auto, on or off");
+}
+
+// Names the flag in the error of a function that reads its value.
+template <typename Function>
+auto FromFlag(const std::string& flag, const std::string& value, Function read) {
+  try {
+    return read(value);
+  } catch (const SceneError& error) {
+    throw SceneError("--" + flag + ": " + error.what());
+  }
+}
+
+TargetOptions TargetFromFlags() {
+  RequireAtLeast("target_scale", FLAGS_target_scale, 0.0);
+  RequireAtLeast("target_rate", FLAGS_target_rate, 0.0);
+  RequireAtLeast("target_object", FLAGS_target_object, -1);
+  RequireAtLeast("marker_limit", FLAGS_marker_limit, 0.0);
+  TargetOptions target;
+  target.capture.scale = FLAGS_target_scale;
+  target.capture.up = FromFlag("target_up", FLAGS_target_up, UpAxisFromName);
+  target.capture.rate = FLAGS_target_rate;
+  target.capture.origin =
+      FromFlag("target_origin", FLAGS_target_origin, TimeOriginFromName);
+  target.capture.nan_is_missing = FLAGS_target_nan_is_missing;
+  target.attach.method =
+      FromFlag("target_attach", FLAGS_target_attach, AttachMethodFromName);
+  target.attach.object = FLAGS_target_object;
+  target.attach.max_distance = FLAGS_marker_limit;
+  target.marker_map = FLAGS_marker_map;
+  target.follow_pins = FLAGS_follow_pins;
+  if (FLAGS_initial_state != "scene" && FLAGS_initial_state != "target") {
+    Refuse("initial_state", FLAGS_initial_state, "scene or target");
+  }
+  target.start_from_target = FLAGS_initial_state == "target";
+  target.rest_shape = FLAGS_rest_shape;
+  return target;
+}
+
 EstimationJob JobFromFlags() {
   RequireFlag("scene", FLAGS_scene, "the scene file whose parameters to estimate");
   RequireAtLeast("frames", FLAGS_frames, 0);
@@ -157,6 +241,11 @@ EstimationJob JobFromFlags() {
   job.scene_path = FLAGS_scene;
   job.settings = FLAGS_settings;
   job.target_path = FLAGS_target;
+  job.target = TargetFromFlags();
+  job.estimate = Split(FLAGS_estimate, ',');
+  job.trajectory_format =
+      FromFlag("trajectory_format", FLAGS_trajectory_format, TrajectoryFormatFromName);
+  job.options.uncertainty = UncertaintyFromFlag();
   job.num_frames = FLAGS_frames;
   job.num_validation_frames = FLAGS_validate_frames;
   job.noise_sigma = FLAGS_noise_sigma;

@@ -287,12 +287,21 @@ void ParameterLayout::Insert(const Eigen::VectorXd& parameters, Scene* scene,
 }
 
 bool ParameterLayout::ObjectIsEstimated(const Scene& scene, int object) {
+  return EstimatedObjects(scene)[object] != 0;
+}
+
+std::vector<char> ParameterLayout::EstimatedObjects(const Scene& scene) {
+  std::vector<char> is_estimated(scene.objects.size(), 0);
+  bool wind = false;
   const ParameterLayout layout(scene);
-  return std::any_of(
-      layout.blocks_.begin(), layout.blocks_.end(), [&](const ParameterBlock& block) {
-        return block.object == object ||
-               (block.kind == ParameterKind::kWind && FeelsWind(scene.objects[object]));
-      });
+  for (const ParameterBlock& block : layout.blocks()) {
+    if (block.object >= 0) is_estimated[block.object] = 1;
+    wind = wind || block.kind == ParameterKind::kWind;
+  }
+  for (size_t object = 0; wind && object < scene.objects.size(); ++object) {
+    if (FeelsWind(scene.objects[object])) is_estimated[object] = 1;
+  }
+  return is_estimated;
 }
 
 }  // namespace dpe

@@ -25,7 +25,8 @@ SimulatorOptions OptionsFor(const EstimatorOptions& options) {
 }
 
 void LoadTarget(const EstimationJob& job, EstimationInput* input) {
-  input->reference = ReadTrajectoryCsv(job.target_path, input->scene, 0);
+  input->reference =
+      LoadTarget(job.target_path, job.target, &input->scene, &input->warnings);
   const int in_file = input->reference.num_frames();
   if (job.num_frames > in_file) {
     throw SceneError("--frames: " + std::to_string(job.num_frames) +
@@ -53,6 +54,48 @@ void MakeTarget(const EstimationJob& job, EstimationInput* input) {
   input->reference = ObserveAll(truth);
 }
 
+std::string TrajectoryPath(const EstimationJob& job, const std::string& output_dir) {
+  switch (job.trajectory_format) {
+    case TrajectoryFormat::kObj:
+      return output_dir + "/trajectory_*.obj";
+    case TrajectoryFormat::kPc2:
+      return output_dir + "/trajectory.pc2";
+    case TrajectoryFormat::kNpy:
+      return output_dir + "/trajectory.npy";
+    case TrajectoryFormat::kAuto:
+    case TrajectoryFormat::kCsv:
+      break;
+  }
+  return output_dir + "/trajectory.csv";
+}
+
+// Marks a quantity as estimated: of the objects of which something is estimated
+// already, of all if there are none.
+void EstimateMore(const std::string& what, Scene* scene) {
+  const auto has_settings = [](const ClothObject& cloth) {
+    return cloth.mass_mode != ParameterMode::kFixed ||
+           cloth.stiffness_mode != ParameterMode::kFixed;
+  };
+  const bool all =
+      std::none_of(scene->objects.begin(), scene->objects.end(), has_settings);
+  for (ClothObject& cloth : scene->objects) {
+    if (!all && !has_settings(cloth)) continue;
+    if (what == "damping") {
+      cloth.estimate_damping = true;
+    } else if (what == "drag") {
+      cloth.estimate_drag = true;
+    } else if (what == "initial_velocity") {
+      cloth.estimate_initial_velocity = true;
+    } else if (what == "wind") {
+      scene->estimate_wind = true;
+    } else {
+      throw SceneError("--estimate: \"" + what +
+                       "\" is not accepted; expected damping, drag, wind or "
+                       "initial_velocity, separated by commas");
+    }
+  }
+}
+
 bool HasResult(const EstimatorSummary& summary) {
   return std::isfinite(summary.final_cost);
 }
@@ -68,6 +111,7 @@ EstimationInput LoadEstimationInput(const EstimationJob& job) {
   EstimationInput input;
   input.scene = LoadScene(job.scene_path, &input.warnings);
   if (!job.settings.empty()) ApplySettings(job.settings, &input.scene);
+  for (const std::string& what : job.estimate) EstimateMore(what, &input.scene);
   if (ParameterLayout(input.scene).size() == 0) {
     throw SceneError(
         job.scene_path + ": nothing is estimated (settings \"" +
@@ -135,9 +179,10 @@ std::vector<std::string> WriteResults(const EstimationJob& job,
   if (HasResult(summary)) {
     files.push_back(output_dir + "/" + JobName(job, input.scene) + "_optimized.txt");
     SaveScene(summary.scene, files.back());
-    files.push_back(output_dir + "/trajectory.csv");
-    WriteFileAtomically(files.back(),
-                        TrajectoryToCsv(validation.trajectory, summary.scene));
+    const std::vector<std::string> frames =
+        WriteTrajectory(TrajectoryPath(job, output_dir), job.trajectory_format,
+                        validation.trajectory, summary.scene);
+    files.insert(files.end(), frames.begin(), frames.end());
   }
   files.push_back(output_dir + "/report.json");
   WriteFileAtomically(files.back(), ReportToJson(job, input, summary, validation));

@@ -8,6 +8,7 @@
 #include "dpe/engine/parameters.h"
 #include "fit_problem.h"
 #include "fit_setup.h"
+#include "fit_uncertainty.h"
 #include "horizon.h"
 #include "optimizers.h"
 #include "starting_point.h"
@@ -104,14 +105,13 @@ class Fit {
     start_.message = evaluator()->message();
   }
 
-  // A start from inverse dynamics or the screen has seen the motion; a handful of
-  // parameters is checked against trial values afterwards.
+  // A start from inverse dynamics has seen the whole motion; a handful of parameters is
+  // checked against trial values afterwards.
   bool ShouldGrow() {
     if (options_.horizon != Horizon::kAuto) {
       return options_.horizon == Horizon::kGrow;
     }
-    return use_lm_ && !HasFewParameters() &&
-           (start_.init == "uniform" || start_.init == "scene");
+    return use_lm_ && !HasFewParameters() && start_.init != "inverse_dynamics";
   }
 
   void Grow() {
@@ -233,7 +233,22 @@ class Fit {
     summary_.scene = scene_;
     problem()->layout().Insert(summary_.parameters, &summary_.scene);
     summary_.blocks = MakeEstimatedBlocks(problem()->layout(), summary_.parameters);
+    FindUncertainty(has_result);
     summary_.wall_time_s = stop_.Seconds();
+  }
+
+  void FindUncertainty(bool has_result) {
+    if (!has_result) {
+      summary_.uncertainty.message = "there is no result";
+    } else if (stop_.stopped()) {
+      summary_.uncertainty.message = "the fit was stopped";
+    } else if (!WantsUncertainty(options_, evaluator()->num_parameters(),
+                                 fit_.noise_is_known())) {
+      summary_.uncertainty.message = "not asked for";
+    } else {
+      summary_.uncertainty =
+          UncertaintyOfFit(blank_, fit_.noise_is_known(), options_, evaluator());
+    }
   }
 
   const Scene& scene_;

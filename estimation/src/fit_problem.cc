@@ -33,6 +33,7 @@ FitProblem::FitProblem(const Scene& blank, const Observations& observations,
   };
   problem_ =
       std::make_unique<TrajectoryProblem>(blank, std::move(costs), evaluator_options);
+  noise_is_known_ = NoiseIsKnown(blank, observations_);
   converged_cost_ = CostOfRms(blank, observations_, options.rms_tolerance);
 }
 

@@ -30,6 +30,9 @@ class FitProblem {
   const Observations& observations() const { return observations_; }
   int num_frames() const { return num_frames_; }
 
+  // True if residuals are in standard deviations, false if in m.
+  bool noise_is_known() const { return noise_is_known_; }
+
   // RMS position error at the point of least cost so far, m; NaN before there is one.
   double best_rms() const { return best_rms_; }
   // True if that point's cost is nothing but rounding (options.rms_tolerance).
@@ -38,6 +41,7 @@ class FitProblem {
  private:
   const int num_frames_;
   const Observations observations_;  // of these frames
+  bool noise_is_known_ = false;
   double best_rms_;
   double converged_cost_ = 0.0;
   std::unique_ptr<TrajectoryProblem> problem_;

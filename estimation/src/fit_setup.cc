@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "dpe/engine/parameters.h"
 #include "frame_interpolation.h"
@@ -70,25 +71,40 @@ Observations FirstFrames(const Observations& observations, int num_frames) {
   return first;
 }
 
-double CostOfRms(const Scene& scene, const Observations& observations, double rms) {
-  double sum = 0.0;  // of squared weights
-  const auto add = [&sum](double sigma) {
-    sum += sigma > 0.0 ? 1.0 / (sigma * sigma) : 1.0;
-  };
+namespace {
+
+// Calls `see` with the noise of every observation of an estimated object.
+template <typename See>
+void ForEachSigma(const Scene& scene, const Observations& observations, See see) {
+  const std::vector<char> is_estimated = ParameterLayout::EstimatedObjects(scene);
   for (int object = 0; object < static_cast<int>(observations.positions.size());
        ++object) {
-    if (!ParameterLayout::ObjectIsEstimated(scene, object)) continue;
+    if (is_estimated[object] == 0) continue;
     for (int f = 0; f < observations.positions[object].cols(); ++f) {
       for (int v = 0; v < scene.objects[object].num_vertices(); ++v) {
         if (observations.IsObserved(object, v, f)) {
-          add(observations.Sigma(object, v, f));
+          see(observations.Sigma(object, v, f));
         }
       }
     }
   }
   for (const MarkerSample& sample : observations.samples) {
-    add(observations.Sigma(sample));
+    see(observations.Sigma(sample));
   }
+}
+
+}  // namespace
+
+bool NoiseIsKnown(const Scene& scene, const Observations& observations) {
+  bool is_known = false;
+  ForEachSigma(scene, observations, [&](double sigma) { is_known |= sigma > 0.0; });
+  return is_known;
+}
+
+double CostOfRms(const Scene& scene, const Observations& observations, double rms) {
+  double sum = 0.0;  // of squared weights
+  ForEachSigma(scene, observations,
+               [&](double sigma) { sum += sigma > 0.0 ? 1.0 / (sigma * sigma) : 1.0; });
   return 0.5 * rms * rms * sum;
 }
 

@@ -18,6 +18,10 @@ int NumFramesToFit(const Scene& scene, const Observations& observations, int ask
 
 Observations FirstFrames(const Observations& observations, int num_frames);
 
+// True if the noise of what is observed is known (MakePositionCosts sees to it that
+// this holds for all observations or for none).
+bool NoiseIsKnown(const Scene& scene, const Observations& observations);
+
 // The cost of position residuals if every observation were `rms` (m) off.
 double CostOfRms(const Scene& scene, const Observations& observations, double rms);
 

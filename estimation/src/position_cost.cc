@@ -88,15 +88,22 @@ RobustLoss LossOf(const PositionCostOptions& options) {
                                       : RobustLoss::DefaultScale(options.loss));
 }
 
-bool IsMoved(const Scene& scene, const Marker& marker) {
-  if (!ParameterLayout::ObjectIsEstimated(scene, marker.object)) return false;
-  for (size_t i = 0; i < marker.vertices.size(); ++i) {
-    if (marker.weights[i] != 0.0 &&
-        !scene.objects[marker.object].is_fixed[marker.vertices[i]]) {
-      return true;
+// For each marker whether any parameter moves it.
+std::vector<char> MovedMarkers(const Scene& scene, const Observations& observations) {
+  if (observations.markers.empty()) return {};
+  const std::vector<char> is_estimated = ParameterLayout::EstimatedObjects(scene);
+  std::vector<char> is_moved;
+  for (const Marker& marker : observations.markers) {
+    is_moved.push_back(0);
+    if (!is_estimated[marker.object]) continue;
+    for (size_t i = 0; i < marker.vertices.size(); ++i) {
+      if (marker.weights[i] != 0.0 &&
+          !scene.objects[marker.object].is_fixed[marker.vertices[i]]) {
+        is_moved.back() = 1;
+      }
     }
   }
-  return false;
+  return is_moved;
 }
 
 // The derivative of robust residuals: each three rows of `rows` times their block.
@@ -135,10 +142,11 @@ class NoiseCheck {
 
 void CheckNoise(const Scene& scene, const Observations& observations, int num_frames) {
   NoiseCheck check;
+  const std::vector<char> is_estimated = ParameterLayout::EstimatedObjects(scene);
   for (int object = 0; object < static_cast<int>(observations.positions.size());
        ++object) {
     const int frames = std::min<int>(num_frames, observations.positions[object].cols());
-    if (!ParameterLayout::ObjectIsEstimated(scene, object)) continue;
+    if (is_estimated[object] == 0) continue;
     for (int frame = 1; frame < frames; ++frame) {
       for (int v = 0; v < scene.objects[object].num_vertices(); ++v) {
         if (!scene.objects[object].is_fixed[v] &&
@@ -148,8 +156,9 @@ void CheckNoise(const Scene& scene, const Observations& observations, int num_fr
       }
     }
   }
+  const std::vector<char> is_moved = MovedMarkers(scene, observations);
   for (const MarkerSample& sample : observations.samples) {
-    if (IsMoved(scene, observations.markers[sample.marker])) {
+    if (is_moved[sample.marker] != 0) {
       check.See(observations.Sigma(sample));
     }
   }
@@ -169,8 +178,9 @@ std::unique_ptr<PositionCost> PositionCost::Create(const Scene& scene,
                                                    int frame,
                                                    const PositionCostOptions& options) {
   RowBuilder rows(scene);
+  const std::vector<char> is_estimated = ParameterLayout::EstimatedObjects(scene);
   for (int object = 0; object < static_cast<int>(scene.objects.size()); ++object) {
-    if (!ParameterLayout::ObjectIsEstimated(scene, object)) continue;
+    if (is_estimated[object] == 0) continue;
     const ClothObject& cloth = scene.objects[object];
     for (int v = 0; v < cloth.num_vertices(); ++v) {
       if (cloth.is_fixed[v] || !observations.IsObserved(object, v, frame)) continue;
@@ -187,7 +197,9 @@ std::unique_ptr<PositionCost> PositionCost::Create(const Scene& scene,
 std::unique_ptr<PositionCost> PositionCost::CreateFromSamples(
     const Scene& scene, const Observations& observations, int frame, int num_frames,
     const PositionCostOptions& options) {
+  if (observations.samples.empty()) return nullptr;
   RowBuilder rows(scene);
+  const std::vector<char> is_moved = MovedMarkers(scene, observations);
   for (const MarkerSample& sample : observations.samples) {
     if (!IsWithinFrames(sample.time, num_frames)) continue;
     const FrameWeights frames = InterpolateFrames(sample.time, num_frames);
@@ -195,7 +207,7 @@ std::unique_ptr<PositionCost> PositionCost::CreateFromSamples(
         frames.count == 1 ? frames.first : static_cast<int>(std::floor(sample.time));
     const Marker& marker = observations.markers[sample.marker];
     const bool is_given = frames.count == 1 && frames.first == 0;
-    if (own_frame != frame || is_given || !IsMoved(scene, marker)) continue;
+    if (own_frame != frame || is_given || is_moved[sample.marker] == 0) continue;
     rows.Begin(sample.position, observations.Sigma(sample));
     for (int k = 0; k < frames.count; ++k) {
       for (size_t i = 0; i < marker.vertices.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dpe/engine/parameters.h"
+#include "uncertainty_io.h"
 
 namespace dpe {
 namespace {
@@ -40,6 +41,17 @@ Json Parameters(const EstimationInput& input, const EstimatorSummary& summary) {
     if (!block.elements.empty()) entry["elements"] = block.elements;
     entry["inactive"] = block.inactive;
     array.push_back(std::move(entry));
+  }
+  return array;
+}
+
+Json Horizons(const EstimatorSummary& summary) {
+  Json array = Json::array();
+  for (const HorizonStage& stage : summary.horizons) {
+    array.push_back({{"frames", stage.num_frames},
+                     {"iterations", stage.iterations},
+                     {"start_rms_m", Number(stage.start_rms)},
+                     {"rms_m", Number(stage.final_rms)}});
   }
   return array;
 }
@@ -80,7 +92,11 @@ std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
           : Json(nullptr);
   report["noise_sigma_m"] = Number(job.noise_sigma);
   report["seed"] = job.options.seed;
+  report["sigma_m"] = Number(input.target.sigma);
+  report["loss"] = LossTypeName(job.options.loss);
+  report["horizons"] = Horizons(summary);
   report["parameters"] = Parameters(input, summary);
+  report["uncertainty"] = UncertaintyToJson(summary.uncertainty);
   // Text that is not UTF-8 (a file name, say) must not make the report fail.
   return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -239,6 +239,14 @@ RowMajorMatrix TrajectoryEvaluator::DenseJacobian() const {
   return dense;
 }
 
+Eigen::VectorXd TrajectoryEvaluator::JacobianColumnSquares() const {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(num_parameters());
+  for (int s = 0; s < num_segments(); ++s) {
+    joint_->ScatterAdd(jacobian(s).colwise().squaredNorm().transpose(), s, &squares);
+  }
+  return squares;
+}
+
 bool TrajectoryEvaluator::EvaluateGradient(Eigen::VectorXd* gradient) {
   if (!ok_) return false;
   std::vector<char> ok(num_segments(), 0);

@@ -182,8 +182,10 @@ class UncertaintyAnalysis {
     for (const ParameterBlock& block : input_.layout->blocks()) {
       BlockUncertainty result;
       result.object = block.object;
+      result.segment = block.segment;
       result.kind = ParameterKindName(block.kind);
       result.unit = ParameterKindUnit(block.kind);
+      result.natural_unit = space_.unit[block.offset];
       result.mode = ParameterModeLetter(block.mode);
       result.values = parameters.segment(block.offset, block.size);
       result.determined_part.resize(block.size);
@@ -196,7 +198,7 @@ class UncertaintyAnalysis {
         const double std = TakesPart(posterior_, j) ? kInfinity : in_q;
         result.determined_part[k] = slope[j] * in_q;
         result.standard_deviations[k] = slope[j] * std;
-        if (space_.is_log[j]) result.relative[k] = std;
+        if (map_.is_log(j)) result.relative[k] = std;
         result.flags.push_back(
             Flags(j, result.values[k], median, has_priors ? share[j] : 1.0));
       }
@@ -219,7 +221,7 @@ class UncertaintyAnalysis {
     if (is_undetermined) flags |= kUndetermined;
     if (is_weak) flags |= kWeaklyDetermined;
     if (!is_undetermined && data_share < kLeastDataShare) flags |= kPriorAlone;
-    if (space_.is_log[j] && (is_undetermined || is_weak)) {
+    if (map_.is_log(j) && (is_undetermined || is_weak)) {
       if (value < std::max(kLowest, median / kFarFromMedian)) flags |= kAtLowerLimit;
       if (value > std::min(kHighest, median * kFarFromMedian)) flags |= kAtUpperLimit;
     }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "dpe/estimation/parameterization.h"
 #include "uncertainty_algebra.h"
 
 namespace dpe {
@@ -208,26 +207,36 @@ class BasisBuilder {
   std::vector<ReadableDirection> result_;
 };
 
+// Half the greatest extent of points along an axis; of a single one, 1.
+double HalfExtent(const Eigen::VectorXd& positions) {
+  const Eigen::Map<const Eigen::Matrix3Xd> points(positions.data(), 3,
+                                                  positions.size() / 3);
+  const double extent =
+      (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
+  return extent > 0.0 ? 0.5 * extent : 1.0;
+}
+
 }  // namespace
 
 NaturalSpace::NaturalSpace(const ParameterLayout& parameter_layout,
                            const Eigen::VectorXd& coordinates)
     : layout(parameter_layout), unit(Eigen::VectorXd::Ones(coordinates.size())) {
-  const ParameterMap map(layout);
   const int num_blocks = static_cast<int>(layout.blocks().size());
   block_changes.setZero(coordinates.size(), num_blocks);
-  for (int j = 0; j < map.size(); ++j) is_log.push_back(map.is_log(j));
   for (int b = 0; b < num_blocks; ++b) {
     const ParameterBlock& block = layout.blocks()[b];
+    kind.insert(kind.end(), block.size, block.kind);
     auto change = block_changes.col(b).segment(block.offset, block.size);
     if (ParameterKindIsPositive(block.kind)) {
       change.setOnes();
       continue;
     }
     const Eigen::VectorXd values = coordinates.segment(block.offset, block.size);
-    const double largest = std::max(1.0, values.lpNorm<Eigen::Infinity>());
-    unit.segment(block.offset, block.size).setConstant(largest);
-    change = values / largest;
+    const bool is_position = block.kind == ParameterKind::kInitialPosition;
+    const double size = is_position ? HalfExtent(values)
+                                    : std::max(1.0, values.lpNorm<Eigen::Infinity>());
+    unit.segment(block.offset, block.size).setConstant(size);
+    if (!is_position) change = values / size;
   }
 }
 

@@ -18,10 +18,11 @@ struct NaturalSpace {
   NaturalSpace(const ParameterLayout& layout, const Eigen::VectorXd& coordinates);
 
   const ParameterLayout& layout;
-  Eigen::VectorXd unit;      // u
-  std::vector<char> is_log;  // per parameter
+  Eigen::VectorXd unit;             // u
+  std::vector<ParameterKind> kind;  // per parameter
   // n x blocks: the change of z when a block as a whole changes by 100 %: ones for
-  // logarithms, z itself for velocities (zero if these are zero).
+  // logarithms, z itself for velocities (zero if these are zero), zero for positions,
+  // which have no zero to be measured from.
   Eigen::MatrixXd block_changes;
 };
 

@@ -35,6 +35,8 @@ std::string GroupName(const ClothObject& object, const ParameterBlock& block,
   const bool has_kinds =
       block.kind == ParameterKind::kStiffness && !object.spring_kind.empty();
   for (size_t e = 0; e < block.element_to_local.size(); ++e) {
+    // Springs between fixed vertices are in no group.
+    if (block.element_to_local[e] < 0) continue;
     const bool belongs = block.element_to_local[e] == local;
     if (belongs) group = groups[e];
     if (has_kinds) (belongs ? inside : outside).insert(object.spring_kind[e]);
@@ -48,12 +50,13 @@ std::string GroupName(const ClothObject& object, const ParameterBlock& block,
 // One element of a block of mode L.
 std::string ElementName(const Scene& scene, const ParameterBlock& block, int element) {
   static const char* const kAxis[] = {"x", "y", "z"};
-  const std::string of_object = OfObject(block.object);
+  const std::string of_object = OfBlock(block);
   switch (block.kind) {
     case ParameterKind::kWind:
-      return std::string("the wind along ") + kAxis[element];
+      return std::string("the wind along ") + kAxis[element] + of_object;
     case ParameterKind::kInitialVelocity:
-      return std::string("the initial velocity along ") + kAxis[element % 3] +
+    case ParameterKind::kInitialPosition:
+      return "the " + ParameterKindName(block.kind) + " along " + kAxis[element % 3] +
              " of vertex " + std::to_string(element / 3) + of_object;
     case ParameterKind::kStiffness: {
       const std::array<int, 2>& ends = scene.objects[block.object].springs[element];
@@ -75,7 +78,7 @@ std::vector<std::string> ParameterNames(const Scene& scene,
     if (block.mode == ParameterMode::kGroup) {
       for (int k = 0; k < block.size; ++k) {
         names[block.offset + k] =
-            GroupName(scene.objects[block.object], block, k) + OfObject(block.object);
+            GroupName(scene.objects[block.object], block, k) + OfBlock(block);
       }
       continue;
     }
@@ -85,7 +88,7 @@ std::vector<std::string> ParameterNames(const Scene& scene,
       names[block.offset + local] =
           block.mode == ParameterMode::kLocal
               ? ElementName(scene, block, static_cast<int>(e))
-              : "the " + ParameterKindName(block.kind) + OfObject(block.object);
+              : "the " + ParameterKindName(block.kind) + OfBlock(block);
     }
   }
   return names;
@@ -106,6 +109,11 @@ std::string OfObject(int object) {
   return object < 0 ? "" : " of object " + std::to_string(object);
 }
 
+std::string OfBlock(const ParameterBlock& block) {
+  return OfObject(block.object) +
+         (block.segment < 0 ? "" : " in motion " + std::to_string(block.segment));
+}
+
 std::string Listed(const std::vector<std::string>& parts) {
   std::string text;
   for (size_t i = 0; i < parts.size(); ++i) {
@@ -122,13 +130,17 @@ std::string Short(double value) {
   return text.str();
 }
 
-std::string Spread(bool is_log, double deviation, double unit) {
+std::string RelativeSpread(double deviation) {
   constexpr double kPercent = 0.3;   // beyond, relative deviations are factors
   constexpr double kLargest = 13.8;  // ln 1e6
-  if (!is_log) return Short(deviation * unit) + " m/s";
   if (deviation <= kPercent) return Short(100.0 * deviation) + " %";
   if (deviation > kLargest) return "a factor of more than a million";
   return "a factor of " + Short(std::exp(deviation));
+}
+
+std::string Spread(ParameterKind kind, double deviation, double size) {
+  if (ParameterKindIsPositive(kind)) return RelativeSpread(deviation);
+  return Short(deviation * size) + " " + ParameterKindUnit(kind);
 }
 
 }  // namespace dpe

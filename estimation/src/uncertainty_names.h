@@ -21,15 +21,22 @@ std::string BlockQuantity(ParameterKind kind);
 // " of object 0", or nothing for the scene's own.
 std::string OfObject(int object);
 
+// " of object 0 in motion 2": also of which motion, if a block is one motion's alone.
+std::string OfBlock(const ParameterBlock& block);
+
 // "a", "a and b", "a, b and c".
 std::string Listed(const std::vector<std::string>& parts);
 
 // "12", "3.2e-07": three digits.
 std::string Short(double value);
 
-// What a standard deviation in natural units means, after the word "to": "12 %", "a
-// factor of 3.4", "9.1 m/s".
-std::string Spread(bool is_log, double deviation, double unit);
+// What the standard deviation of a logarithm means, after the word "to": "12 %", "a
+// factor of 3.4".
+std::string RelativeSpread(double deviation);
+
+// The same of `deviation` in natural units, each of `size` SI units: "9.1 m/s".
+// @param kind  RelativeSpread for positive kinds
+std::string Spread(ParameterKind kind, double deviation, double size);
 
 }  // namespace dpe
 

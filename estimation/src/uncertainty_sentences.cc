@@ -11,13 +11,13 @@ namespace {
 // Parts named in a sentence about more than a handful.
 constexpr size_t kNamedParts = 3;
 
-// "+1 %" or "-0.5 m/s": the part of a change of one per cent.
+// "+1 %" or "-0.05 m/s": the part of a change of one per cent of the natural unit.
 std::string Change(const NaturalSpace& space, int parameter, double coefficient) {
   const std::string sign = coefficient < 0.0 ? "-" : "+";
   const double size = std::abs(coefficient);
-  return sign + (space.is_log[parameter]
-                     ? Short(size) + " %"
-                     : Short(0.01 * size * space.unit[parameter]) + " m/s");
+  const ParameterKind kind = space.kind[parameter];
+  if (ParameterKindIsPositive(kind)) return sign + Short(size) + " %";
+  return sign + Spread(kind, 0.01 * size, space.unit[parameter]);
 }
 
 std::string Parts(const NaturalSpace& space, const std::vector<std::string>& names,
@@ -34,22 +34,22 @@ std::string Parts(const NaturalSpace& space, const std::vector<std::string>& nam
 std::string Blocks(const NaturalSpace& space, const std::vector<int>& blocks) {
   std::vector<std::string> quantities, with_object;
   bool one_object = true;
-  const int object = space.layout.blocks()[blocks[0]].object;
+  const std::string owner = OfBlock(space.layout.blocks()[blocks[0]]);
   for (const int b : blocks) {
     const ParameterBlock& block = space.layout.blocks()[b];
-    one_object &= block.object == object;
+    one_object &= OfBlock(block) == owner;
     quantities.push_back(BlockQuantity(block.kind));
-    with_object.push_back("the " + quantities.back() + OfObject(block.object));
+    with_object.push_back("the " + quantities.back() + OfBlock(block));
   }
-  return one_object ? Listed(quantities) + OfObject(object) : Listed(with_object);
+  return one_object ? Listed(quantities) + owner : Listed(with_object);
 }
 
 std::string BlockChanges(const NaturalSpace& space, const ReadableDirection& readable) {
   std::vector<std::string> parts;
   for (size_t k = 0; k < readable.blocks.size(); ++k) {
     const ParameterBlock& block = space.layout.blocks()[readable.blocks[k]];
-    parts.push_back("the " + BlockQuantity(block.kind) + OfObject(block.object) +
-                    " by " + (readable.powers[k] < 0.0 ? "-" : "+") +
+    parts.push_back("the " + BlockQuantity(block.kind) + OfBlock(block) + " by " +
+                    (readable.powers[k] < 0.0 ? "-" : "+") +
                     Short(std::abs(readable.powers[k])) + " %");
   }
   return Listed(parts);
@@ -132,7 +132,7 @@ std::string DirectionText(const NaturalSpace& space,
   const Phrase phrase = PhraseOf(space, names, readable, direction);
   const int largest = direction.parameters[0];
   const auto spread = [&](double std) {
-    return Spread(space.is_log[largest], std, space.unit[largest]);
+    return Spread(space.kind[largest], std, space.unit[largest]);
   };
   std::string text = phrase.subject;
   text += direction.is_exact ? phrase.if_exact

@@ -12,6 +12,10 @@ namespace {
 
 // Parameters named in a sentence that holds for many.
 constexpr size_t kNamed = 3;
+// Directions without a pattern and correlated pairs in sentences; all that are reported
+// stand in the Uncertainty itself.
+constexpr int kMaxPatternless = 3;
+constexpr size_t kMaxPairs = 3;
 // Noise below this, m, is no measurement's.
 constexpr double kRoundingNoise = 1e-10;
 
@@ -25,17 +29,20 @@ class StatementMaker {
     Limits();
     SingleParameters();
     Directions();
-    ForEachBlock(kPriorAlone, 0, [](bool one) {
+    ForEachBlock(kPriorAlone, 0, [](const BlockUncertainty&, bool one) {
       return std::string(": the data add next to nothing to ") +
              (one ? "its prior" : "their priors");
     });
-    for (const CorrelatedPair& pair : uncertainty_.strongest_pairs) {
-      statements_.push_back(pair.text);
+    const std::vector<CorrelatedPair>& pairs = uncertainty_.strongest_pairs;
+    for (size_t k = 0; k < std::min(kMaxPairs, pairs.size()); ++k) {
+      statements_.push_back(pairs[k].text);
     }
     return statements_;
   }
 
  private:
+  using Predicate = std::function<std::string(const BlockUncertainty&, bool is_one)>;
+
   void Noise() {
     std::ostringstream text;
     text.precision(3);
@@ -66,8 +73,7 @@ class StatementMaker {
 
   // One sentence per block and number of parameters with flag `with` and none of
   // `without`.
-  void ForEachBlock(unsigned with, unsigned without,
-                    const std::function<std::string(bool is_one)>& predicate) {
+  void ForEachBlock(unsigned with, unsigned without, const Predicate& predicate) {
     size_t offset = 0;
     for (const BlockUncertainty& block : uncertainty_.blocks) {
       std::vector<std::string> names;
@@ -86,7 +92,7 @@ class StatementMaker {
         names.resize(kNamed);
         names.push_back(rest);
       }
-      statements_.push_back(Listed(names) + predicate(is_one));
+      statements_.push_back(Listed(names) + predicate(block, is_one));
     }
   }
 
@@ -120,21 +126,34 @@ class StatementMaker {
 
   void SingleParameters() {
     const unsigned limits = kAtLowerLimit | kAtUpperLimit;
-    ForEachBlock(kNoInfluence | kUndetermined, limits, [](bool one) {
-      return std::string(one ? " has" : " have") +
-             " no effect on what was observed: not determined";
-    });
-    ForEachBlock(kWeaklyDetermined, limits | kNoInfluence, [](bool one) {
-      return std::string(one ? " is" : " are") +
-             " weakly determined: standard deviation beyond a factor of e (velocities: "
-             "beyond 1 m/s and their own size)";
-    });
+    ForEachBlock(kNoInfluence | kUndetermined, limits,
+                 [](const BlockUncertainty&, bool one) {
+                   return std::string(one ? " has" : " have") +
+                          " no effect on what was observed: not determined";
+                 });
+    ForEachBlock(
+        kWeaklyDetermined, limits | kNoInfluence,
+        [&](const BlockUncertainty& block, bool one) {
+          return (one ? " is" : " are") +
+                 std::string(" weakly determined: the standard deviation is ") +
+                 "beyond " + Threshold(block);
+        });
+  }
+
+  std::string Threshold(const BlockUncertainty& block) const {
+    const double threshold = options_.weak_threshold;
+    if (!std::isnan(block.relative[0])) return RelativeSpread(threshold);
+    return Short(threshold * block.natural_unit) + " " + block.unit;
   }
 
   // Of more than a single parameter.
   void Directions() {
-    int num_exact = 0, num_weak = 0;
+    int num_exact = 0, num_weak = 0, num_patternless = 0;
     for (const UndeterminedDirection& direction : uncertainty_.directions) {
+      if (direction.pattern == DirectionPattern::kGeneral &&
+          ++num_patternless > kMaxPatternless) {
+        continue;
+      }
       ++(direction.is_exact ? num_exact : num_weak);
       if (direction.pattern == DirectionPattern::kSingle) continue;
       statements_.push_back(direction.text);
@@ -161,7 +180,10 @@ class StatementMaker {
 std::string WithDeviation(const BlockUncertainty& block, int k) {
   const std::string unit = block.unit == "1" ? "" : " " + block.unit;
   if (std::isinf(block.standard_deviations[k])) {
-    return Short(block.values[k]) + unit + " (not determined)";
+    const std::string value = Short(block.values[k]) + unit;
+    if ((block.flags[k] & kNoInfluence) != 0) return value + " (not determined)";
+    return value + " (not determined; +- " + Short(block.determined_part[k]) + unit +
+           " but for what is undetermined)";
   }
   std::ostringstream text;
   text.precision(6);
@@ -177,17 +199,18 @@ std::string Spreads(const BlockUncertainty& block) {
   const bool is_log = !std::isnan(block.relative[0]);
   std::vector<double> finite;
   for (int k = 0; k < block.values.size(); ++k) {
-    const double value =
-        is_log ? 100.0 * block.relative[k] : block.standard_deviations[k];
+    const double value = is_log ? block.relative[k] : block.standard_deviations[k];
     if (std::isfinite(value)) finite.push_back(value);
   }
   std::sort(finite.begin(), finite.end());
+  const auto spread = [&](double value) {
+    return is_log ? RelativeSpread(value) : Short(value) + " " + block.unit;
+  };
   const size_t num_rest = block.values.size() - finite.size();
   std::string text;
   if (!finite.empty()) {
-    text = "standard deviation min " + Short(finite.front()) + ", median " +
-           Short(finite[finite.size() / 2]) + ", max " + Short(finite.back()) +
-           (is_log ? " %" : " " + block.unit);
+    text = "standard deviation min " + spread(finite.front()) + ", median " +
+           spread(finite[finite.size() / 2]) + ", max " + spread(finite.back());
   }
   if (num_rest == 0) return text;
   return text + (finite.empty() ? "" : "; ") + std::to_string(num_rest) +

@@ -23,7 +23,8 @@ TEST(ParameterMapTest, PositiveKindsAreLogarithmicAndTheOthersPlain) {
   bool seen_log = false, seen_plain = false;
   for (const ParameterBlock& block : layout.blocks()) {
     const bool positive = block.kind != ParameterKind::kWind &&
-                          block.kind != ParameterKind::kInitialVelocity;
+                          block.kind != ParameterKind::kInitialVelocity &&
+                          block.kind != ParameterKind::kInitialPosition;
     EXPECT_EQ(map.is_log(block.offset), positive) << ParameterKindName(block.kind);
     seen_log = seen_log || positive;
     seen_plain = seen_plain || !positive;

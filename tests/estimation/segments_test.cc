@@ -64,6 +64,9 @@ TEST_P(SegmentsTest, JacobianAndGradientAgreeWithDifferences) {
   }
   ASSERT_TRUE(evaluator.Evaluate(q) && evaluator.EvaluateJacobian());
   EXPECT_EQ(Eigen::MatrixXd(evaluator.DenseJacobian()), jacobian);
+  const Eigen::VectorXd squares = jacobian.colwise().squaredNorm();
+  EXPECT_LT((evaluator.JacobianColumnSquares() - squares).norm(),
+            1e-13 * squares.norm());
   Eigen::VectorXd gradient;
   ASSERT_TRUE(evaluator.EvaluateGradient(&gradient));
   const Eigen::VectorXd expected = jacobian.transpose() * evaluator.residuals();

@@ -42,8 +42,9 @@ struct Honesty {
   double mean_chi_square = 0.0;
 };
 
-// Side, three stiffnesses and damping. The preset's springs at the border are softer than
-// the others of their kind; here all of a kind are alike, so that the model can be right.
+// Side, three stiffnesses and damping. The preset's springs at the border are softer
+// than the others of their kind; here all of a kind are alike, so that the model can be
+// right.
 Scene MakeScene(int resolution) {
   Scene scene = test::MakeDerivativeScene("side", resolution);
   ApplySettings("nR", &scene);

@@ -67,6 +67,15 @@ void PrintBlocks(const EstimationInput& input, const EstimatorSummary& summary) 
   }
 }
 
+void PrintUncertainty(const Uncertainty& uncertainty) {
+  if (!uncertainty.ok) {
+    std::cout << "Error bars: none, " << uncertainty.message << "\n";
+  }
+  for (const std::string& line : UncertaintyLines(uncertainty)) {
+    std::cout << line << "\n";
+  }
+}
+
 }  // namespace
 
 void ProgressTable::PrintHeader() const {
@@ -129,6 +138,7 @@ void PrintSummary(const EstimationInput& input, const EstimatorSummary& summary,
     }
     if (!validation.note.empty()) std::cout << "Note: " << validation.note << "\n";
     PrintBlocks(input, summary);
+    PrintUncertainty(summary.uncertainty);
     if (input.truth_is_known) {
       const double deviation = ParameterDeviationPercent(summary, input.scene);
       std::cout << "Mean deviation from the true parameters: " << Format(deviation)
@@ -136,7 +146,12 @@ void PrintSummary(const EstimationInput& input, const EstimatorSummary& summary,
     }
   }
   std::cout << "Files:\n";
-  for (const std::string& file : files) std::cout << "  " << file << "\n";
+  // A sequence of frames by its first and last.
+  for (size_t i = 0; i < files.size(); ++i) {
+    const bool is_middle = i > 2 && i + 2 < files.size() && files.size() > 4;
+    if (!is_middle) std::cout << "  " << files[i] << "\n";
+    if (is_middle && i == 3) std::cout << "  ...\n";
+  }
 }
 
 }  // namespace dpe::tools

@@ -75,6 +75,9 @@ class ParameterLayout {
   // object feels it: the objects that an estimation has to simulate.
   static bool ObjectIsEstimated(const Scene& scene, int object);
 
+  // The same for all objects at once, 1 or 0 each.
+  static std::vector<char> EstimatedObjects(const Scene& scene);
+
  private:
   std::vector<ParameterBlock> blocks_;
   int size_ = 0;

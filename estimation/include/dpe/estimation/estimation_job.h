@@ -9,7 +9,9 @@
 #include "dpe/engine/scene.h"
 #include "dpe/engine/trajectory.h"
 #include "dpe/estimation/estimator.h"
+#include "dpe/estimation/load_target.h"
 #include "dpe/estimation/observations.h"
+#include "dpe/estimation/trajectory_io.h"
 
 namespace dpe {
 
@@ -17,9 +19,15 @@ struct EstimationJob {
   std::string scene_path;
   // What to estimate, as ApplySettings reads it; empty: as the scene says.
   std::string settings;
-  // CSV file to fit; empty: the motion that the scene's own parameters make, which then
-  // serve to report the deviation and for nothing else.
+  // More to estimate: "damping", "drag", "wind", "initial_velocity", of all objects
+  // that have it.
+  std::vector<std::string> estimate;
+  // What to fit, in any format that ReadCapture reads; empty: the motion that the
+  // scene's own parameters make, which then serve to report the deviation and for
+  // nothing else.
   std::string target_path;
+  TargetOptions target;
+  TrajectoryFormat trajectory_format = TrajectoryFormat::kCsv;  // of the result
   int num_frames = 0;             // to fit; <= 0: as the scene says, at most the file's
   int num_validation_frames = 0;  // to compare after the fit; 0: none
   double noise_sigma = 0.0;       // m, added to the target, see AddNoise
@@ -60,7 +68,8 @@ std::string PrepareOutputDir(const EstimationJob& job, const Scene& scene);
 Validation Validate(const EstimatorSummary& summary, const EstimationInput& input,
                     int num_threads);
 
-// Writes <scene>_<settings>_optimized.txt, trajectory.csv and report.json, each
+// Writes <scene>_<settings>_optimized.txt, trajectory.csv (or .pc2, .npy, or
+// trajectory_*.obj, see trajectory_format) and report.json, each
 // atomically; only the report if no point could be simulated.
 // @return the paths written
 std::vector<std::string> WriteResults(const EstimationJob& job,

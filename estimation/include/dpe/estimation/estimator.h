@@ -14,6 +14,7 @@
 #include "dpe/engine/trajectory.h"
 #include "dpe/estimation/observations.h"
 #include "dpe/estimation/robust_loss.h"
+#include "dpe/estimation/uncertainty.h"
 
 namespace dpe {
 
@@ -31,9 +32,15 @@ enum class InitMethod {
 
 // Over which frames the optimiser works its way to all of them.
 enum class Horizon {
-  kAuto,  // grow with LM from a start that has not seen the motion, else full
+  kAuto,  // grow with LM, unless inverse dynamics gave the start, else full
   kFull,  // all at once
   kGrow,  // the first few frames, then more and more, each from the one before
+};
+
+enum class UncertaintyMode {
+  kAuto,  // where the noise is known, or there are at most 100 parameters
+  kOn,
+  kOff,
 };
 
 // One horizon that a fit went through on its way.
@@ -82,6 +89,8 @@ struct EstimatorOptions {
   double loss_scale = 0.0;
 
   Horizon horizon = Horizon::kAuto;
+  // Error bars cost one Jacobian and its decomposition.
+  UncertaintyMode uncertainty = UncertaintyMode::kAuto;
 
   // SolverType::kAuto takes LM as long as its dense Jacobian (8 bytes x residuals x
   // parameters; beside it LM keeps some twenty matrices of parameters x parameters)
@@ -147,6 +156,8 @@ struct EstimatorSummary {
   Eigen::VectorXd parameters;          // layout order, SI units
   std::vector<EstimatedBlock> blocks;
   Scene scene;  // the input scene with the estimated values in it
+  // Not ok, with a message, where none was computed.
+  Uncertainty uncertainty;
 
   bool usable() const { return termination == Termination::kConverged; }
 };

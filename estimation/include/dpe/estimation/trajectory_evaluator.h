@@ -107,6 +107,8 @@ class TrajectoryEvaluator {
   const RowMajorMatrix& jacobian(int segment = 0) const;
   // dr/dq with all its zeros, num_residuals() x num_parameters().
   RowMajorMatrix DenseJacobian() const;
+  // The squared lengths of its columns, without making it; links' targets left out.
+  Eigen::VectorXd JacobianColumnSquares() const;
   double cost() const { return 0.5 * residuals_.squaredNorm(); }
   const Trajectory& trajectory(int segment = 0) const;
   bool ok() const { return ok_; }

@@ -21,9 +21,9 @@
 //                              standard deviation.                                 (2)
 //
 // Directions. J's coordinates are measured in natural units, z = q / u: u = 1 for
-// logarithms (a factor e), and for velocities the largest component of their block, at
-// least 1 m/s. With unit columns, J diag(u) = B D^-1, |B e_j| = 1, the singular value
-// decomposition B = U S V^T gives
+// logarithms (a factor e), for velocities the largest component of their block, at
+// least 1 m/s, for positions half the cloth's extent. With unit columns, J diag(u) = B
+// D^-1, |B e_j| = 1, the singular value decomposition B = U S V^T gives
 //
 //   S_i <= rank_tolerance S_1:  V_i is exactly undetermined. The columns of D V_i span
 //                               the null space N; rounding errors of a column are of
@@ -99,12 +99,14 @@ std::vector<std::string> ParameterFlagNames(unsigned flags);
 // One block of parameters, as EstimatedBlock.
 struct BlockUncertainty {
   int object = -1;
+  int segment = -1;  // as in ParameterBlock
   std::string kind;
   std::string unit;
+  double natural_unit = 1.0;  // u, SI units; 1 for logarithms
   char mode = 'G';
   Eigen::VectorXd values;               // SI units
   Eigen::VectorXd standard_deviations;  // SI units; infinite: undetermined
-  Eigen::VectorXd relative;             // std / value; NaN for velocities
+  Eigen::VectorXd relative;             // std / value; NaN where q is not a logarithm
   // SI units, of the part that is determined: with what is undetermined left where it
   // is (the pseudo-inverse). Equal to standard_deviations without kUndetermined.
   Eigen::VectorXd determined_part;

@@ -1,0 +1,76 @@
+#include "fit_uncertainty.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "tall_qr.h"
+
+namespace dpe {
+namespace {
+
+// Up to so many parameters it takes no time worth mentioning.
+constexpr int kFewParameters = 100;
+
+Uncertainty NotComputed(const std::string& why) {
+  Uncertainty uncertainty;
+  uncertainty.message = why;
+  return uncertainty;
+}
+
+// R of J = Q R, in chunks of rows.
+Eigen::MatrixXd Triangle(const RowMajorMatrix& jacobian, int num_threads) {
+  std::vector<int> chunk_rows;
+  for (int row = 0; row < jacobian.rows(); row += kRowsPerChunk) {
+    chunk_rows.push_back(std::min<int>(kRowsPerChunk, jacobian.rows() - row));
+  }
+  Eigen::MatrixXd r;
+  TallQr(
+      chunk_rows, static_cast<int>(jacobian.cols()), num_threads,
+      [&](int chunk, Eigen::Ref<Eigen::MatrixXd> rows) {
+        rows = jacobian.middleRows(chunk * kRowsPerChunk, chunk_rows[chunk]);
+        return true;
+      },
+      &r);
+  return r;
+}
+
+}  // namespace
+
+bool WantsUncertainty(const EstimatorOptions& options, int num_parameters,
+                      bool noise_is_known) {
+  if (options.uncertainty != UncertaintyMode::kAuto) {
+    return options.uncertainty == UncertaintyMode::kOn;
+  }
+  return noise_is_known || num_parameters <= kFewParameters;
+}
+
+Uncertainty UncertaintyOfFit(const Scene& scene, bool noise_is_known,
+                             const EstimatorOptions& options,
+                             TrajectoryEvaluator* evaluator) {
+  const double bytes = 8.0 * evaluator->num_residuals() * evaluator->num_parameters();
+  if (bytes > options.max_lm_jacobian_bytes) {
+    return NotComputed("its Jacobian would take " + std::to_string(bytes / 1e6) +
+                       " MB, above the limit of " +
+                       std::to_string(options.max_lm_jacobian_bytes / 1e6) + " MB");
+  }
+  if (!evaluator->Evaluate(evaluator->best_coordinates()) ||
+      !evaluator->EvaluateJacobian()) {
+    return NotComputed(evaluator->message());
+  }
+  UncertaintyInput input;
+  input.scene = &scene;
+  input.layout = &evaluator->layout();
+  input.coordinates = evaluator->best_coordinates();
+  input.data_triangle = evaluator->num_segments() == 1
+                            ? Triangle(evaluator->jacobian(), options.num_threads)
+                            : Triangle(evaluator->DenseJacobian(), options.num_threads);
+  input.residual_sum_of_squares = 2.0 * evaluator->cost();
+  input.num_residuals = evaluator->num_residuals();
+  input.noise_is_known = noise_is_known;
+  UncertaintyOptions uncertainty_options;
+  uncertainty_options.num_threads = options.num_threads;
+  return ComputeUncertainty(input, uncertainty_options);
+}
+
+}  // namespace dpe
