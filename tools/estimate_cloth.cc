@@ -109,6 +109,14 @@ DEFINE_double(noise_sigma, 0.0,
 DEFINE_uint64(seed, 0, "Seed of --noise_sigma and --init_perturbation.");
 DEFINE_string(output_dir, "",
               "Folder for the results; default results/<scene>_<settings>.");
+DEFINE_string(
+    checkpoint, "",
+    "File in which to keep how far the fit has got; written after every accepted "
+    "iteration, the old one or the new one whole at any moment.");
+DEFINE_string(
+    resume, "",
+    "Checkpoint from which to continue, with the same scene, target and options. "
+    "May be the file of --checkpoint.");
 DEFINE_int32(threads, 1, "Number of threads.");
 DEFINE_int32(
     memory_limit, 2048,
@@ -243,6 +251,8 @@ EstimationJob JobFromFlags() {
   job.options.seed = FLAGS_seed;
   job.options.max_iterations = FLAGS_max_iterations;
   job.options.max_seconds = FLAGS_max_seconds;
+  job.options.checkpoint_path = FLAGS_checkpoint;
+  job.options.resume_path = FLAGS_resume;
   job.options.num_threads = FLAGS_threads;
   job.options.memory_limit_bytes = static_cast<std::size_t>(FLAGS_memory_limit) << 20;
   return job;

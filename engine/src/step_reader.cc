@@ -3,19 +3,9 @@
 #include <algorithm>
 
 namespace dpe {
-namespace {
-
-SimulatorOptions Uninterrupted(SimulatorOptions options) {
-  options.interrupted = nullptr;
-  return options;
-}
-
-}  // namespace
-
 StepReader::StepReader(const ObjectRecord& record)
     : record_(record),
-      options_(Uninterrupted(*record.options)),
-      runner_(*record.scene, options_, record.system),
+      runner_(*record.scene, *record.options, record.system),
       v0_(record.system->num_coordinates()) {}
 
 bool StepReader::Rerun(int frame) {
@@ -40,6 +30,7 @@ bool StepReader::Rerun(int frame) {
 }
 
 bool StepReader::Read(int s, StepStates* states) {
+  if (record_.options->interrupted && record_.options->interrupted()) return false;
   const int steps_per_frame = record_.scene->steps_per_frame;
   const int frame = s / steps_per_frame, k = s % steps_per_frame;
   const InnerStates* inner = &record_.tape->inner;

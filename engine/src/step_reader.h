@@ -27,7 +27,8 @@ class StepReader {
 
   // The states around step `s` (0-based, of the whole rollout). They stay valid until
   // the next call, which is cheapest for a step of the same frame. May use the system's
-  // solver. False if the steps of a frame could not be taken again.
+  // solver. False if the steps of a frame could not be taken again, or `interrupted` is
+  // true.
   bool Read(int s, StepStates* states);
 
  private:
@@ -35,7 +36,6 @@ class StepReader {
   bool Rerun(int frame);
 
   ObjectRecord record_;
-  SimulatorOptions options_;  // the rollout's, not to be interrupted
   FrameRunner runner_;
   InnerStates buffer_;  // of frame buffered_
   int buffered_ = -1;

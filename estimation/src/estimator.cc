@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "dpe/engine/parameters.h"
+#include "fit_checkpoints.h"
 #include "fit_problem.h"
 #include "fit_setup.h"
 #include "fit_uncertainty.h"
@@ -28,14 +29,22 @@ class Fit {
       : scene_(scene),
         blank_(WithoutEstimatedValues(scene)),
         options_(options),
-        stop_(options.max_seconds, options.interrupted),
+        checkpoints_(scene, observations, options_),
+        stop_(options.max_seconds, options.interrupted,
+              resumed() != nullptr ? resumed()->seconds : 0.0),
         fit_(blank_, observations,
              NumFramesToFit(scene, observations, options.num_frames), options_,
              &stop_) {
     context_.fit = &fit_;
     context_.options = &options_;
     context_.stop = &stop_;
+    context_.accepted = [this](const OptimizerContext& context, double radius) {
+      if (context.fit == &fit_) last_radius_ = radius;
+      SaveCheckpoint(context.fit == &fit_ ? "fit" : "grow", context, radius);
+    };
     summary_.num_frames = fit_.num_frames();
+    summary_.initial_cost = summary_.initial_rms =
+        std::numeric_limits<double>::quiet_NaN();
   }
 
   EstimatorSummary Run() {
@@ -65,12 +74,59 @@ class Fit {
     summary_.solver_reason = choice.reason;
   }
 
-  // Finds a start that can be simulated and makes it the current point.
+  // What to continue; null: nothing.
+  const Checkpoint* resumed() const { return checkpoints_.resumed(); }
+
+  void SaveCheckpoint(const char* stage, const OptimizerContext& context,
+                      double radius) {
+    checkpoints_.Save(stage, context, radius, start_.coordinates, summary_);
+  }
+
+  // Makes a start that can be simulated the current point: what is found, or where an
+  // earlier run was.
   bool Start() {
+    if (resumed() != nullptr) {
+      checkpoints_.RequireCoordinates(evaluator()->num_parameters());
+      Resume(*resumed());
+    } else {
+      FindStart();
+    }
+    if (!start_.ok) return false;
+    summary_.jacobian = use_lm_ ? evaluator()->JacobianMethodName() : "gradient";
+    // Where the fit is over on the way here, it is to be continued there.
+    if (!context_.is_over()) SaveCheckpoint("fit", context_, context_.initial_radius);
+    return true;
+  }
+
+  void Resume(const Checkpoint& checkpoint) {
+    start_.init = summary_.init = checkpoint.init;
+    summary_.notes = checkpoint.notes;
+    summary_.initial_cost = checkpoint.initial_cost;
+    summary_.initial_rms = checkpoint.initial_rms;
+    start_.coordinates = checkpoint.start;
+    context_.num_iterations = checkpoint.iterations;
+    if (checkpoint.stage == "fit") {
+      context_.first_iteration = checkpoint.first_iteration;
+      context_.initial_radius = checkpoint.radius;
+      summary_.horizons = context_.horizons = checkpoint.horizons;
+      GoTo(checkpoint.coordinates);
+      return;
+    }
+    GoTo(checkpoint.start);
+    if (ShouldGrow()) Grow(checkpoint.stage == "grow" ? &checkpoint : nullptr);
+    ReplaceFailedStart();
+  }
+
+  void FindStart() {
     start_ =
         FindStartingPoint(scene_, fit_.observations(), options_, &stop_, evaluator());
     TryStart();
-    if (ShouldGrow()) Grow();
+    if (start_.coordinates.size() > 0) SaveCheckpoint("start", context_, 0.0);
+    if (ShouldGrow()) Grow(nullptr);
+    ReplaceFailedStart();
+  }
+
+  void ReplaceFailedStart() {
     if (!start_.ok && HasFewParameters() && start_.init != "screen" &&
         !stop_.stopped()) {
       summary_.notes.push_back("the starting point (" + start_.init +
@@ -79,9 +135,6 @@ class Fit {
       start_ = ScreenStartingPoints(&stop_, evaluator());
       TryStart();
     }
-    if (!start_.ok) return false;
-    summary_.jacobian = use_lm_ ? evaluator()->JacobianMethodName() : "gradient";
-    return true;
   }
 
   void TryStart() {
@@ -91,10 +144,14 @@ class Fit {
     if (!start_.ok) return;
     PerturbStart();
     NormaliseStart();
-    problem()->set_coordinates(start_.coordinates);
-    start_.ok = evaluator()->Evaluate(start_.coordinates);
-    start_.message = evaluator()->message();
+    GoTo(start_.coordinates);
     if (start_.ok) RecordStart();
+  }
+
+  void GoTo(const Eigen::VectorXd& coordinates) {
+    problem()->set_coordinates(coordinates);
+    start_.ok = evaluator()->Evaluate(coordinates);
+    start_.message = evaluator()->message();
   }
 
   void RecordStart() {
@@ -111,11 +168,12 @@ class Fit {
     return use_lm_ && !HasFewParameters() && start_.init != "inverse_dynamics";
   }
 
-  void Grow() {
+  // @param resumed  where to continue; null: at the start
+  void Grow(const Checkpoint* resumed) {
     if (start_.coordinates.size() == 0 || fit_.IsAtRounding()) return;
-    const GrownHorizon grown =
-        GrowHorizon(blank_, fit_.observations(), start_.coordinates, &context_);
-    summary_.horizons = grown.stages;
+    const GrownHorizon grown = GrowHorizon(blank_, fit_.observations(),
+                                           start_.coordinates, &context_, resumed);
+    summary_.horizons = context_.horizons;
     summary_.evaluations += grown.num_rollouts;
     summary_.jacobian_evaluations += grown.num_derivative_passes;
     context_.first_iteration = context_.num_iterations;
@@ -195,6 +253,8 @@ class Fit {
     const OptimizerResult result = Minimize(use_lm_, &context_);
     summary_.termination = result.termination;
     summary_.message = result.message;
+    // The optimiser does not tell of its last iteration.
+    if (summary_.usable()) SaveCheckpoint("fit", context_, last_radius_);
   }
 
   // With a handful of parameters the whole range can be looked at, so that a local
@@ -224,13 +284,15 @@ class Fit {
     NormaliseScale(scene_, problem()->layout(), FreeMass(scene_), &summary_.parameters);
     summary_.final_cost = has_result ? evaluator()->best_cost() : nan;
     summary_.final_rms = has_result ? fit_.best_rms() : nan;
-    if (!has_result) summary_.initial_cost = summary_.initial_rms = nan;
     summary_.iterations = context_.num_iterations;
     summary_.evaluations += evaluator()->num_rollouts();
     summary_.jacobian_evaluations += evaluator()->num_derivative_passes();
     summary_.scene = scene_;
     problem()->layout().Insert(summary_.parameters, &summary_.scene);
     summary_.blocks = MakeEstimatedBlocks(problem()->layout(), summary_.parameters);
+    if (!checkpoints_.problem().empty()) {
+      summary_.notes.push_back(checkpoints_.problem());
+    }
     FindUncertainty(has_result);
     summary_.wall_time_s = stop_.Seconds();
   }
@@ -252,12 +314,14 @@ class Fit {
   const Scene& scene_;
   const Scene blank_;  // without the values of what is estimated
   const EstimatorOptions options_;
+  FitCheckpoints checkpoints_;
   StopControl stop_;
   FitProblem fit_;
   OptimizerContext context_;
   StartingPoint start_;
   EstimatorSummary summary_;
   bool use_lm_ = true;
+  double last_radius_ = 0.0;  // of the fit to all frames
 };
 
 }  // namespace

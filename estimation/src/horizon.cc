@@ -29,12 +29,22 @@ class HorizonGrower {
     stage_context_.options = &options_;
   }
 
-  GrownHorizon Run(const Eigen::VectorXd& start) {
+  GrownHorizon Run(const Eigen::VectorXd& start, const Checkpoint* resumed) {
     result_.coordinates = start;
     // Frame 0 is given, and horizons in which nothing was seen say nothing.
     int solved = FirstMovedFrame(blank_, observations_, num_frames_);
     int step = kFirstHorizon - 1;
-    while (solved + step < num_frames_ && !context_->stop->stopped()) {
+    if (resumed != nullptr) {
+      result_.coordinates = resumed->coordinates;
+      step = resumed->num_frames - solved;
+      stage_context_.initial_radius = resumed->radius;
+      stage_context_.horizons = resumed->horizons;
+      if (!stage_context_.horizons.empty()) {
+        unfinished_ = stage_context_.horizons.back();
+        stage_context_.horizons.pop_back();
+      }
+    }
+    while (solved + step < num_frames_ && !context_->is_over()) {
       if (Fit(solved + step)) {
         solved += step;
         result_.ok = true;
@@ -45,6 +55,7 @@ class HorizonGrower {
         break;
       }
     }
+    context_->horizons = stage_context_.horizons;
     return result_;
   }
 
@@ -61,13 +72,16 @@ class HorizonGrower {
       HorizonStage stage;
       stage.num_frames = num_frames;
       stage.start_rms = fit.best_rms();
+      if (unfinished_.num_frames == num_frames) stage = unfinished_;
+      unfinished_ = HorizonStage();
+      stage_context_.horizons.push_back(stage);
       fit.problem()->set_coordinates(result_.coordinates);
       const int iterations_before = context_->num_iterations;
       if (!fit.IsAtRounding()) Minimise(&fit);
-      stage.iterations = context_->num_iterations - iterations_before;
+      stage.iterations += context_->num_iterations - iterations_before;
       stage.final_rms = fit.best_rms();
+      stage_context_.horizons.back() = stage;
       result_.coordinates = evaluator->best_coordinates();
-      result_.stages.push_back(stage);
     } else {
       result_.message = evaluator->message();
     }
@@ -91,13 +105,15 @@ class HorizonGrower {
   OptimizerContext stage_context_;
   const int num_frames_;
   GrownHorizon result_;
+  HorizonStage unfinished_;  // in which a fit is continued
 };
 
 }  // namespace
 
 GrownHorizon GrowHorizon(const Scene& blank, const Observations& observations,
-                         const Eigen::VectorXd& start, OptimizerContext* context) {
-  return HorizonGrower(blank, observations, context).Run(start);
+                         const Eigen::VectorXd& start, OptimizerContext* context,
+                         const Checkpoint* resumed) {
+  return HorizonGrower(blank, observations, context).Run(start, resumed);
 }
 
 }  // namespace dpe

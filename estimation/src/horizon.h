@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "dpe/engine/scene.h"
+#include "dpe/estimation/checkpoint.h"
 #include "dpe/estimation/estimator.h"
 #include "dpe/estimation/observations.h"
 #include "optimizers.h"
@@ -23,7 +24,6 @@ struct GrownHorizon {
   bool ok = false;              // false: not even the first frames could be fitted
   std::string message;          // why not
   Eigen::VectorXd coordinates;  // the start for all frames
-  std::vector<HorizonStage> stages;
   int num_rollouts = 0;
   int num_derivative_passes = 0;
 };
@@ -32,9 +32,12 @@ struct GrownHorizon {
 //
 // @param blank    the scene without its values of what is estimated
 // @param start    coordinates to start from; need only be simulated for a few frames
-// @param context  of the fit: options, stop and iterations are used
+// @param context  of the fit: options, stop and iterations are used, and horizons
+//                 receives what was fitted
+// @param resumed  if not null, where to continue: in which horizon, from which point
 GrownHorizon GrowHorizon(const Scene& blank, const Observations& observations,
-                         const Eigen::VectorXd& start, OptimizerContext* context);
+                         const Eigen::VectorXd& start, OptimizerContext* context,
+                         const Checkpoint* resumed = nullptr);
 
 }  // namespace dpe
 

@@ -24,8 +24,11 @@ constexpr int kLbfgsRank = 50;
 // Reports iterations and ends the solve when there is a reason to.
 class ProgressCallback : public ceres::IterationCallback {
  public:
-  explicit ProgressCallback(OptimizerContext* context)
-      : context_(context), first_iteration_(context->num_iterations) {}
+  // @param damping  of the trust region; 1 where it is not uniform
+  explicit ProgressCallback(OptimizerContext* context, double damping = 1.0)
+      : context_(context),
+        damping_(damping),
+        first_iteration_(context->num_iterations) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& s) override {
     // A later solve's iteration 0 is the point that the one before ended at.
@@ -40,6 +43,9 @@ class ProgressCallback : public ceres::IterationCallback {
       report.gradient_max_norm = s.gradient_max_norm;
       report.step_accepted = s.step_is_successful;
       context_->Report(report);
+      if (s.iteration > 0 && s.step_is_successful && context_->accepted) {
+        context_->accepted(*context_, s.trust_region_radius / damping_);
+      }
     }
     if (context_->stop->Poll() || context_->fit->IsAtRounding()) {
       return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
@@ -49,6 +55,7 @@ class ProgressCallback : public ceres::IterationCallback {
 
  private:
   OptimizerContext* context_;
+  double damping_;
   int first_iteration_;
 };
 
@@ -84,8 +91,8 @@ OptimizerResult Explain(const OptimizerContext& context, ceres::TerminationType 
 // What is left of the limit: the user's over everything, the default for each horizon.
 int MaxIterations(const OptimizerContext& context, int default_value) {
   const int limit = context.options->max_iterations;
-  return limit >= 0 ? limit - context.num_iterations
-                    : default_value + context.first_iteration - context.num_iterations;
+  const int last = limit >= 0 ? limit : default_value + context.first_iteration;
+  return std::max(0, last - context.num_iterations);
 }
 
 // With one unknown per element, many of them hardly move the motion. Damping relative
@@ -94,31 +101,38 @@ int MaxIterations(const OptimizerContext& context, int default_value) {
 // logarithms that is small where nothing asks for it:
 //
 //   (J^T J + d / radius I) step = -J^T r,   d = max_j |J_j|^2 over elements.
-void SetUniformDamping(TrajectoryProblem* problem, ceres::Solver::Options* solver) {
+//
+// @return d; 1 without such unknowns, where nothing is changed
+double SetUniformDamping(TrajectoryProblem* problem, ceres::Solver::Options* solver) {
   TrajectoryEvaluator* evaluator = problem->evaluator();
-  if (!evaluator->EvaluateJacobian()) return;
+  if (!evaluator->EvaluateJacobian()) return 1.0;
   const Eigen::VectorXd squares = evaluator->JacobianColumnSquares();
   double largest = 0.0;
   for (const ParameterBlock& block : evaluator->layout().blocks()) {
     if (block.mode != ParameterMode::kLocal) continue;
     largest = std::max(largest, squares.segment(block.offset, block.size).maxCoeff());
   }
-  if (!(largest > 0.0) || !std::isfinite(largest)) return;
+  if (!(largest > 0.0) || !std::isfinite(largest)) return 1.0;
   solver->jacobi_scaling = false;
   solver->min_lm_diagonal = largest;
   solver->max_lm_diagonal = largest;
+  return largest;
 }
 
 OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
   const EstimatorOptions& options = *context->options;
   ceres::Solver::Options solver = LevenbergMarquardtOptions();
   solver.max_num_iterations = MaxIterations(*context, kDefaultLmIterations);
-  SetUniformDamping(context->problem(), &solver);
+  const double damping = SetUniformDamping(context->problem(), &solver);
+  if (context->initial_radius > 0.0) {
+    solver.initial_trust_region_radius = context->initial_radius * damping;
+    context->initial_radius = 0.0;
+  }
   solver.function_tolerance = options.function_tolerance;
   solver.gradient_tolerance = options.gradient_tolerance;
   solver.parameter_tolerance = options.parameter_tolerance;
   solver.num_threads = options.num_threads;
-  ProgressCallback callback(context);
+  ProgressCallback callback(context, damping);
   solver.callbacks.push_back(&callback);
   ceres::Solver::Summary summary;
   const std::unique_ptr<ceres::Problem> reduced =

@@ -18,8 +18,10 @@ using Group = ProblemRows::Group;
 
 // What the costs of one reduced problem have in common.
 struct SharedRows {
-  explicit SharedRows(ProblemRows r) : rows(std::move(r)) {}
+  SharedRows(ProblemRows r, std::function<bool()> i)
+      : rows(std::move(r)), interrupted(std::move(i)) {}
   ProblemRows rows;  // evaluating needs its memory
+  std::function<bool()> interrupted;
   std::mutex mutex;  // and that of the full problem
 };
 
@@ -80,6 +82,7 @@ class ReducedCost : public ceres::CostFunction {
   bool Reduce(double* cost, Eigen::MatrixXd* r) const {
     std::vector<double> costs(group_.chunk_rows.size(), 0.0);
     const auto fill = [&](int chunk, Eigen::Ref<Eigen::MatrixXd> rows) {
+      if (shared_->interrupted && shared_->interrupted()) return false;
       return shared_->rows.EvaluateChunk(group_index_, chunk, rows, &costs[chunk]);
     };
     bool ok = true;
@@ -144,8 +147,9 @@ void CopyBounds(const ceres::Problem& from, const FreeBlock& block,
 
 std::unique_ptr<ceres::Problem> NewReducedProblem(ceres::Problem* full,
                                                   ceres::EvaluationCallback* callback,
-                                                  int num_threads, Timings* timings) {
-  auto shared = std::make_shared<SharedRows>(ProblemRows(full));
+                                                  int num_threads, Timings* timings,
+                                                  std::function<bool()> interrupted) {
+  auto shared = std::make_shared<SharedRows>(ProblemRows(full), std::move(interrupted));
   const ProblemRows& rows = shared->rows;
   if (rows.num_parameters() == 0 || rows.num_rows() <= rows.num_parameters()) {
     return nullptr;

@@ -32,6 +32,7 @@
 
 #include <ceres/ceres.h>
 
+#include <functional>
 #include <memory>
 
 #include "dpe/engine/timings.h"
@@ -48,11 +49,14 @@ namespace dpe {
 // @param callback     that of `full`, or null if it has none
 // @param num_threads  to factorise with; the result does not depend on it
 // @param timings      if not null, receives the time of the reduction
+// @param interrupted  polled between pieces of the reduction, if set, from any thread
+// but
+//                     from one at a time; true makes the evaluation fail
 // @return             null if there is nothing to gain: no more residuals than
 //                     parameters
-std::unique_ptr<ceres::Problem> NewReducedProblem(ceres::Problem* full,
-                                                  ceres::EvaluationCallback* callback,
-                                                  int num_threads, Timings* timings);
+std::unique_ptr<ceres::Problem> NewReducedProblem(
+    ceres::Problem* full, ceres::EvaluationCallback* callback, int num_threads,
+    Timings* timings, std::function<bool()> interrupted = nullptr);
 
 }  // namespace dpe
 

@@ -11,17 +11,21 @@ namespace dpe {
 
 class StopControl {
  public:
-  StopControl(double max_seconds, std::function<bool()> interrupted)
-      : max_seconds_(max_seconds), interrupted_(std::move(interrupted)) {}
+  // @param seconds_before  spent on the same fit by an earlier process; counts in
+  //                        Seconds(), but not towards max_seconds
+  StopControl(double max_seconds, std::function<bool()> interrupted,
+              double seconds_before = 0.0)
+      : max_seconds_(max_seconds),
+        interrupted_(std::move(interrupted)),
+        seconds_before_(seconds_before) {}
 
-  double Seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
-  }
+  double Seconds() const { return seconds_before_ + SecondsOfThisRun(); }
 
   // True from the first time on that there is a reason to stop.
   bool Poll() {
     if (!was_interrupted_ && interrupted_ && interrupted_()) was_interrupted_ = true;
-    if (!ran_out_of_time_ && Seconds() >= max_seconds_) ran_out_of_time_ = true;
+    if (!ran_out_of_time_ && SecondsOfThisRun() >= max_seconds_)
+      ran_out_of_time_ = true;
     return stopped();
   }
 
@@ -31,9 +35,15 @@ class StopControl {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  double SecondsOfThisRun() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+
   Clock::time_point start_ = Clock::now();
   double max_seconds_;
   std::function<bool()> interrupted_;
+  double seconds_before_;
   // Rollouts of several objects may poll from several threads.
   std::atomic<bool> was_interrupted_{false};
   std::atomic<bool> ran_out_of_time_{false};

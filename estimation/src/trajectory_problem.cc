@@ -205,7 +205,8 @@ bool TrajectoryProblem::StepIsTooLong() const {
 
 std::unique_ptr<ceres::Problem> TrajectoryProblem::NewReducedLeastSquares() {
   const TrajectoryEvaluatorOptions& options = evaluator_.options();
-  return NewReducedProblem(&least_squares_, this, options.num_threads, options.timings);
+  return NewReducedProblem(&least_squares_, this, options.num_threads, options.timings,
+                           options.interrupted);
 }
 
 ceres::FirstOrderFunction* TrajectoryProblem::NewFirstOrderFunction() {

@@ -117,23 +117,6 @@ TEST(MemoryLimitTest, OneStepOfOneStageKeepsFactorizationsAlone) {
   }
 }
 
-// Derivative passes take steps again without asking whether the user wants to stop:
-// half a gradient is of no use.
-TEST(MemoryLimitTest, StepsTakenAgainAreNotInterrupted) {
-  const Scene scene = MakeScene(IntegrationMethod::kTrBdf2, "cholesky", 2);
-  bool stop = false;
-  SimulatorOptions options;
-  options.memory_limit_bytes = 0;
-  options.interrupted = [&stop] { return stop; };
-  Simulator simulator(scene, options);
-  const Rollout rollout = simulator.Run(simulator.layout().Extract(scene), 4);
-  ASSERT_TRUE(rollout.status().ok());
-  stop = true;
-  Sensitivity sensitivity(&simulator, &rollout);
-  EXPECT_GT(sensitivity.Gradient(rollout.trajectory().positions).norm(), 0.0);
-  EXPECT_TRUE(sensitivity.ok());
-}
-
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "dpe/engine/simulator.h"
 #include "support/derivative_checker.h"
@@ -298,6 +300,49 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Values("two_objects"), testing::Values(5),
                      testing::Values(Way::kNothingKept, Way::kIterativeNothingKept)),
     CaseName);
+
+// One step's worth of polls after the first true: of a pass, or of the steps that it
+// takes again.
+TEST(InterruptedPassTest, StopsWithinAStep) {
+  Scene scene = MakeDerivativeScene("flag", 4);
+  scene.steps_per_frame = 3;
+  EstimateEverything(ParameterMode::kLocal, &scene);
+  constexpr int kFrames = 10;
+  int num_rows = 0;
+  const auto rows = RandomRows(scene, kFrames, &num_rows);
+  for (const std::size_t memory_limit : {std::size_t{1} << 30, std::size_t{0}}) {
+    int polls_left = 1 << 30;
+    SimulatorOptions options;
+    options.memory_limit_bytes = memory_limit;
+    options.interrupted = [&] { return --polls_left < 0; };
+    Simulator simulator(scene, options);
+    const Rollout rollout = simulator.Run(simulator.layout().Extract(scene), kFrames);
+    const Eigen::VectorXd dp = Eigen::VectorXd::Ones(simulator.layout().size());
+    const std::vector<std::function<void(Sensitivity*)>> passes = {
+        [&](Sensitivity* s) { s->Gradient(rollout.trajectory().positions); },
+        [&](Sensitivity* s) { s->Jacobian(rows, num_rows, JacobianMethod::kTangent); },
+        [&](Sensitivity* s) { s->Jacobian(rows, num_rows, JacobianMethod::kAdjoint); },
+        [&](Sensitivity* s) {
+          std::vector<Eigen::MatrixXd> dx, dv;
+          s->JacobianVectorProduct(dp, &dx, &dv);
+        }};
+    for (size_t i = 0; i < passes.size(); ++i) {
+      for (const int after : {0, 1, 12}) {
+        polls_left = after;
+        Sensitivity sensitivity(&simulator, &rollout);
+        passes[i](&sensitivity);
+        EXPECT_FALSE(sensitivity.ok()) << "pass " << i << ", after " << after;
+        EXPECT_EQ(polls_left, -1) << "pass " << i << ", after " << after;
+      }
+      // The systems are as they were.
+      polls_left = 1 << 30;
+      Sensitivity sensitivity(&simulator, &rollout);
+      passes[i](&sensitivity);
+      EXPECT_TRUE(sensitivity.ok()) << "pass " << i;
+      EXPECT_GE((1 << 30) - polls_left, 3 * (kFrames - 2)) << "pass " << i;
+    }
+  }
+}
 
 }  // namespace
 }  // namespace dpe::test

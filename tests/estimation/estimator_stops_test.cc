@@ -125,6 +125,32 @@ TEST_F(EstimatorStopsTest, InterruptionBeforeTheStartIsSimulated) {
   EXPECT_TRUE(std::isnan(summary.final_cost));
 }
 
+// Rollouts, derivative passes and the reduction of the Jacobian all ask, and none goes
+// on when the answer is yes. So does a time limit end a fit within a step.
+TEST_F(EstimatorStopsTest, NothingGoesOnForLongAfterAnInterruption) {
+  for (const SolverType solver :
+       {SolverType::kLevenbergMarquardt, SolverType::kLbfgs}) {
+    options_.solver = solver;
+    options_.max_iterations = 6;
+    options_.uncertainty = UncertaintyMode::kOff;  // it is no part of the fit
+    options_.horizon = Horizon::kFull;
+    long polls = 0, last = 1L << 40;
+    options_.interrupted = [&] { return ++polls > last; };
+    const EstimatorSummary whole = Estimate(scene_, target_, options_);
+    const long all = polls;
+    const long steps = kFrames - 1;
+    EXPECT_GE(all, (whole.evaluations + whole.jacobian_evaluations) * steps);
+    for (int k = 1; k < 40; ++k) {
+      polls = 0;
+      last = all * k / 40;
+      const EstimatorSummary summary = Estimate(scene_, target_, options_);
+      EXPECT_EQ(summary.termination, Termination::kInterrupted) << k;
+      // Every part that is under way asks once more; the optimiser may try another.
+      EXPECT_LE(polls, last + 20) << k;
+    }
+  }
+}
+
 TEST_F(EstimatorStopsTest, SolverChoiceIsExplained) {
   options_.max_iterations = 0;
   EXPECT_EQ(Estimate(scene_, target_, options_).solver, "lm");

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -237,12 +238,14 @@ TEST_F(ReducedProblemLimitsTest, WhatIsNotFiniteIsRefused) {
 constexpr int kFrames = 60;
 
 // The scene's own motion as target, and a start some way off.
-std::unique_ptr<TrajectoryProblem> NewTrajectoryProblem(const char* settings,
-                                                        int num_threads = 1) {
+std::unique_ptr<TrajectoryProblem> NewTrajectoryProblem(
+    const char* settings, int num_threads = 1,
+    const std::function<bool()>& interrupted = nullptr) {
   Scene scene = test::MakeDerivativeScene("side", 4);
   ApplySettings(settings, &scene);
   TrajectoryEvaluatorOptions options;
   options.num_threads = num_threads;
+  options.interrupted = interrupted;
   auto problem = std::make_unique<TrajectoryProblem>(
       scene, MakePositionCosts(scene, test::OwnMotion(scene, kFrames), kFrames),
       options);
@@ -321,6 +324,30 @@ TEST(ReducedTrajectoryProblemTest, AnEstimationReportsItsLinearAlgebra) {
   EXPECT_GT(timings.Seconds(TimedPart::kLeastSquares), 0.0);
   EXPECT_NE(timings.Table(summary.wall_time_s, "rest").find("least squares"),
             std::string::npos);
+}
+
+// Polls of the rollout and its derivatives come first, those of the reduction after.
+TEST(ReducedTrajectoryProblemTest, AReductionIsInterruptedBetweenItsPieces) {
+  int num_polls = 0, last_poll = 1 << 30;
+  const auto evaluate = [&](bool reduce) {
+    num_polls = 0;
+    const auto problem =
+        NewTrajectoryProblem("nL", 1, [&] { return ++num_polls > last_poll; });
+    const auto reduced = problem->NewReducedLeastSquares();
+    std::vector<double> gradient;
+    return (reduce ? reduced.get() : problem->least_squares())
+        ->Evaluate({}, nullptr, nullptr, &gradient, nullptr);
+  };
+  ASSERT_TRUE(evaluate(false));
+  const int polls_before = num_polls;
+  ASSERT_TRUE(evaluate(true));
+  const int num_pieces = num_polls - polls_before;
+  EXPECT_GE(num_pieces, 3);
+  for (const int pieces : {0, 1, num_pieces - 1}) {
+    last_poll = polls_before + pieces;
+    EXPECT_FALSE(evaluate(true));
+    EXPECT_EQ(num_polls, last_poll + 1);
+  }
 }
 
 }  // namespace

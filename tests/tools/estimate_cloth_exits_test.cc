@@ -88,6 +88,7 @@ TEST_F(EstimateClothExitsTest, TwoAndEverythingWrittenAfterCtrlC) {
   options.interrupt_after = 3.0;
   const ProgramResult result = Run({"--init=uniform:10", "--frames=30"}, options);
   EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_EQ(result.err, "");
   EXPECT_FALSE(result.timed_out);
   EXPECT_THAT(result.out, HasSubstr("interrupted"));
   EXPECT_EQ(Report().at("termination"), "interrupted");

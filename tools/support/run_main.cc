@@ -82,6 +82,9 @@ bool IsSet(const char* flag) {
 
 int RunMain(int argc, char** argv, const Program& program,
             const std::function<int()>& body) {
+  // What Ceres has to say the program says itself; its log would only add that a step
+  // failed that was stopped on purpose.
+  gflags::SetCommandLineOptionWithMode("minloglevel", "3", gflags::SET_FLAGS_DEFAULT);
   gflags::ParseCommandLineNonHelpFlags(&argc, &argv, /*remove_flags=*/true);
   if (IsSet("help") || IsSet("helpshort")) {
     PrintHelp(program);

@@ -24,7 +24,8 @@ struct SimulatorOptions {
   // depend on it.
   int num_threads = 1;
 
-  // Polled once per step if set; returning true ends the rollout with kInterrupted.
+  // Polled once per step if set, by rollouts and derivative passes; returning true ends
+  // a rollout with kInterrupted, and a pass as if a system could not be solved.
   std::function<bool()> interrupted;
 
   // What a rollout by Run may keep beyond its trajectory (Simulate keeps nothing):

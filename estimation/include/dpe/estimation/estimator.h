@@ -105,6 +105,13 @@ struct EstimatorOptions {
   double gradient_tolerance = 1e-18;
   double parameter_tolerance = 1e-12;
 
+  // If not empty, a file that holds how far the fit has got, from its start on and then
+  // after every accepted iteration, see checkpoint.h.
+  std::string checkpoint_path;
+  // If not empty, the checkpoint from which to continue; where to start is then not
+  // looked for again. max_seconds is for this run alone.
+  std::string resume_path;
+
   // If set, receives where the time of rollouts and derivative passes went.
   Timings* timings = nullptr;
 
@@ -143,6 +150,7 @@ struct EstimatorSummary {
   std::string jacobian;            // "tangent", "adjoint", or "gradient" for L-BFGS
   std::string init;                // the method that gave the start
   std::vector<std::string> notes;  // gauges fixed, values clamped, ...
+  // Iterations and time include those before the checkpoint that was resumed from.
   int iterations = 0;
   int evaluations = 0;           // rollouts
   int jacobian_evaluations = 0;  // derivative passes
@@ -167,7 +175,8 @@ struct EstimatorSummary {
 // used, except by InitMethod::kScene; where mass and stiffness are both estimated and
 // no known force fixes their scale, the object's total mass is (and a note says so).
 //
-// @throws SceneError if nothing is estimated or observed, or an option does not fit.
+// @throws SceneError if nothing is estimated or observed, an option does not fit, or the
+//         checkpoint to resume from cannot be read or is of another fit.
 EstimatorSummary Estimate(const Scene& scene, const Observations& observations,
                           const EstimatorOptions& options);
 
