@@ -5,12 +5,14 @@
 #include <chrono>
 #include <iostream>
 #include <string>
+#include <utility>
 
 #include "dpe/estimation/estimation_job.h"
 #include "support/blas_threads.h"
 #include "support/flag_ranges.h"
 #include "support/flag_values.h"
 #include "support/interrupt.h"
+#include "support/model_table.h"
 #include "support/progress_table.h"
 #include "support/run_main.h"
 
@@ -64,7 +66,9 @@ DEFINE_string(
     settings, "",
     "What to estimate instead of what the scene says: two letters per object, "
     "mass then stiffness, objects separated by commas. n: not estimated, G: "
-    "one value, L: one per vertex or spring, R: one per group.");
+    "one value, L: one per vertex or spring, R: one per group. auto, for all or in "
+    "place of an object's letters: the simplest stiffness (G, R, L) that forecasts "
+    "frames that are held out as well as any; the mass as the scene says.");
 DEFINE_int32(frames, 0,
              "Frames to fit, the initial state included; 0: what the scene says.");
 DEFINE_int32(
@@ -273,10 +277,26 @@ int ExitCode(Termination termination) {
   return 3;
 }
 
+// Fits; where settings are to be chosen, the scene has the chosen ones afterwards.
+EstimatorSummary Fit(const EstimationJob& job, EstimationInput* input,
+                     ModelSelection* selection) {
+  if (input->auto_objects.empty()) {
+    return Estimate(input->scene, input->target, job.options);
+  }
+  ModelSelectionOptions options;
+  options.objects = input->auto_objects;
+  options.started = PrintModelFit;
+  SelectedModel model = SelectModel(input->scene, input->target, job.options, options);
+  *selection = std::move(model.selection);
+  PrintModelSelection(*selection);
+  ApplySettings(selection->chosen, &input->scene);
+  return std::move(model.summary);
+}
+
 int Main() {
   EstimationJob job = JobFromFlags();
   UseOneBlasThread();
-  const EstimationInput input = LoadEstimationInput(job);
+  EstimationInput input = LoadEstimationInput(job);
   for (const std::string& warning : input.warnings) {
     std::cerr << "estimate_cloth: warning: " << warning << "\n";
   }
@@ -296,10 +316,13 @@ int Main() {
   Timings timings;
   const bool print_times = FLAGS_print_times || input.scene.print_times;
   if (print_times) job.options.timings = &timings;
-  const EstimatorSummary summary = Estimate(input.scene, input.target, job.options);
+  ModelSelection selection;
+  const EstimatorSummary summary = Fit(job, &input, &selection);
   const Validation validation = Validate(summary, input, FLAGS_threads);
+  const bool is_auto = !input.auto_objects.empty();
   PrintSummary(input, summary, validation,
-               WriteResults(job, input, summary, validation, output_dir));
+               WriteResults(job, input, summary, validation, output_dir,
+                            is_auto ? &selection : nullptr));
   if (print_times) {
     std::cout << timings.Table(summary.wall_time_s, "start, optimiser");
   }

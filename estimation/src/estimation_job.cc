@@ -96,6 +96,15 @@ void EstimateMore(const std::string& what, Scene* scene) {
   }
 }
 
+std::string SceneName(const EstimationJob& job) {
+  return std::filesystem::path(job.scene_path).stem().string();
+}
+
+std::string FolderName(const EstimationJob& job, const Scene& scene) {
+  const bool is_auto = job.settings.find("auto") != std::string::npos;
+  return is_auto ? SceneName(job) + "_" + job.settings : JobName(job, scene);
+}
+
 bool HasResult(const EstimatorSummary& summary) {
   return std::isfinite(summary.final_cost);
 }
@@ -103,21 +112,22 @@ bool HasResult(const EstimatorSummary& summary) {
 }  // namespace
 
 std::string JobName(const EstimationJob& job, const Scene& scene) {
-  return std::filesystem::path(job.scene_path).stem().string() + "_" +
-         SettingsString(scene);
+  return SceneName(job) + "_" + SettingsString(scene);
 }
 
 EstimationInput LoadEstimationInput(const EstimationJob& job) {
   EstimationInput input;
   input.scene = LoadScene(job.scene_path, &input.warnings);
-  if (!job.settings.empty()) ApplySettings(job.settings, &input.scene);
+  if (!job.settings.empty()) {
+    input.auto_objects = ApplyAutoSettings(job.settings, &input.scene);
+  }
   for (const std::string& what : job.estimate) EstimateMore(what, &input.scene);
   if (ParameterLayout(input.scene).size() == 0) {
     throw SceneError(
         job.scene_path + ": nothing is estimated (settings \"" +
         SettingsString(input.scene) +
         "\"); accepted in --settings are two letters per object, mass then "
-        "stiffness, each n, G, L or R and not all n");
+        "stiffness, each n, G, L or R and not all n, or auto");
   }
   if (job.target_path.empty()) {
     MakeTarget(job, &input);
@@ -138,7 +148,7 @@ EstimationInput LoadEstimationInput(const EstimationJob& job) {
 
 std::string PrepareOutputDir(const EstimationJob& job, const Scene& scene) {
   const std::string dir =
-      job.output_dir.empty() ? "results/" + JobName(job, scene) : job.output_dir;
+      job.output_dir.empty() ? "results/" + FolderName(job, scene) : job.output_dir;
   std::error_code error;
   std::filesystem::create_directories(dir, error);
   if (error || !std::filesystem::is_directory(dir, error)) {
@@ -174,7 +184,8 @@ std::vector<std::string> WriteResults(const EstimationJob& job,
                                       const EstimationInput& input,
                                       const EstimatorSummary& summary,
                                       const Validation& validation,
-                                      const std::string& output_dir) {
+                                      const std::string& output_dir,
+                                      const ModelSelection* selection) {
   std::vector<std::string> files;
   if (HasResult(summary)) {
     files.push_back(output_dir + "/" + JobName(job, input.scene) + "_optimized.txt");
@@ -185,7 +196,8 @@ std::vector<std::string> WriteResults(const EstimationJob& job,
     files.insert(files.end(), frames.begin(), frames.end());
   }
   files.push_back(output_dir + "/report.json");
-  WriteFileAtomically(files.back(), ReportToJson(job, input, summary, validation));
+  WriteFileAtomically(files.back(),
+                      ReportToJson(job, input, summary, validation, selection));
   return files;
 }
 

@@ -6,6 +6,7 @@
 
 #include "dpe/engine/parameters.h"
 #include "json_numbers_io.h"
+#include "model_selection_io.h"
 #include "uncertainty_io.h"
 
 namespace dpe {
@@ -52,8 +53,8 @@ Json Horizons(const EstimatorSummary& summary) {
 }  // namespace
 
 std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
-                         const EstimatorSummary& summary,
-                         const Validation& validation) {
+                         const EstimatorSummary& summary, const Validation& validation,
+                         const ModelSelection* selection) {
   Json report;
   report["scene"] = job.scene_path;
   report["settings"] = SettingsString(input.scene);
@@ -90,6 +91,8 @@ std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
   report["horizons"] = Horizons(summary);
   report["parameters"] = Parameters(input, summary);
   report["uncertainty"] = UncertaintyToJson(summary.uncertainty);
+  if (selection != nullptr)
+    report["model_selection"] = ModelSelectionToJson(*selection);
   // Text that is not UTF-8 (a file name, say) must not make the report fail.
   return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -10,6 +10,7 @@
 #include "dpe/engine/trajectory.h"
 #include "dpe/estimation/estimator.h"
 #include "dpe/estimation/load_target.h"
+#include "dpe/estimation/model_selection.h"
 #include "dpe/estimation/observations.h"
 #include "dpe/estimation/trajectory_io.h"
 
@@ -17,7 +18,7 @@ namespace dpe {
 
 struct EstimationJob {
   std::string scene_path;
-  // What to estimate, as ApplySettings reads it; empty: as the scene says.
+  // What to estimate, as ApplyAutoSettings reads it; empty: as the scene says.
   std::string settings;
   // More to estimate: "damping", "drag", "wind", "initial_velocity", of all objects
   // that have it.
@@ -42,9 +43,10 @@ struct EstimationJob {
 struct EstimationInput {
   Scene scene;  // with the settings applied
   std::vector<std::string> warnings;
-  Observations target;          // the frames to fit, with noise
-  Observations reference;       // all known frames, without added noise
-  bool truth_is_known = false;  // the scene's values made the target
+  std::vector<int> auto_objects;  // whose settings SelectModel is to choose
+  Observations target;            // the frames to fit, with noise
+  Observations reference;         // all known frames, without added noise
+  bool truth_is_known = false;    // the scene's values made the target
   int num_frames = 0;
   int num_validation_frames = 0;  // at most what the reference holds
 };
@@ -60,7 +62,8 @@ struct Validation {
 // @throws SceneError for bad input, and if the scene's own motion cannot be simulated
 EstimationInput LoadEstimationInput(const EstimationJob& job);
 
-// The job's output folder, created if it is missing.
+// The job's output folder, created if it is missing. Where the settings are to be
+// chosen, its name says so: results/<scene>_auto.
 // @throws SceneError if it cannot be
 std::string PrepareOutputDir(const EstimationJob& job, const Scene& scene);
 
@@ -71,12 +74,14 @@ Validation Validate(const EstimatorSummary& summary, const EstimationInput& inpu
 // Writes <scene>_<settings>_optimized.txt, trajectory.csv (or .pc2, .npy, or
 // trajectory_*.obj, see trajectory_format) and report.json, each
 // atomically; only the report if no point could be simulated.
+// @param selection  how the settings were chosen; null: they were not
 // @return the paths written
 std::vector<std::string> WriteResults(const EstimationJob& job,
                                       const EstimationInput& input,
                                       const EstimatorSummary& summary,
                                       const Validation& validation,
-                                      const std::string& output_dir);
+                                      const std::string& output_dir,
+                                      const ModelSelection* selection = nullptr);
 
 // "<scene>_<settings>", the scene being its file name without extension.
 std::string JobName(const EstimationJob& job, const Scene& scene);

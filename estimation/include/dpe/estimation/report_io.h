@@ -18,8 +18,15 @@ namespace dpe {
 // parameters [{object, kind, mode, unit, values, true_values, elements, inactive}]:
 // `elements` names the element of each value in mode L, `inactive` the elements without
 // influence on the motion.
+//
+// @param selection  null: the settings were given. Otherwise also model_selection
+//                   {criterion, frames, fitted_frames, held_out_frames, candidates
+//                   [{settings, parameters, termination, iterations, seconds,
+//                   fit_rms_m, held_out_rms_m, compared_with, weight, weight_deviation,
+//                   kept, reason}], chosen, reason}, see ModelCandidate
 std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
-                         const EstimatorSummary& summary, const Validation& validation);
+                         const EstimatorSummary& summary, const Validation& validation,
+                         const ModelSelection* selection = nullptr);
 
 }  // namespace dpe
 

@@ -1,0 +1,330 @@
+#include "dpe/estimation/model_selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <utility>
+
+#include "dpe/engine/parameters.h"
+#include "dpe/estimation/inverse_dynamics.h"
+#include "fit_setup.h"
+#include "forecast.h"
+#include "forecast_weight.h"
+#include "stop_control.h"
+
+namespace dpe {
+namespace {
+
+// Enough to fit some and hold out some.
+constexpr int kMinFrames = 6;
+
+// Of what is left of max_seconds, for one candidate.
+constexpr double kShareOfTime = 0.5;
+
+// Candidates need not be fitted to the last digit to be told apart.
+constexpr double kCandidateFunctionTolerance = 1e-6;
+
+// Of values that no fit gave.
+constexpr double kNoRms = -1.0;
+
+std::string Text(double value) {
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+bool HasResult(const EstimatorSummary& summary) {
+  return std::isfinite(summary.final_cost);
+}
+
+// The scene with the modes of `modes`.
+Scene WithModesOf(const Scene& modes, Scene scene) {
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    scene.objects[i].stiffness_mode = modes.objects[i].stiffness_mode;
+  }
+  return scene;
+}
+
+void Check(const EstimatorOptions& options, int num_frames) {
+  if (!options.checkpoint_path.empty() || !options.resume_path.empty()) {
+    throw SceneError(
+        "settings auto: a checkpoint holds one fit, not the choice between several; "
+        "choose without one, then use it for a fit with the settings that were chosen");
+  }
+  if (num_frames < kMinFrames) {
+    throw SceneError("settings auto: " + std::to_string(num_frames) +
+                     " frames; accepted are " + std::to_string(kMinFrames) +
+                     " or more, since some of them are held out");
+  }
+}
+
+int NumFittedFrames(int num_frames, double held_out_fraction) {
+  const int held_out = static_cast<int>(std::lround(num_frames * held_out_fraction));
+  return num_frames - std::clamp(held_out, 1, num_frames - 3);
+}
+
+struct FittedModel {
+  EstimatorSummary summary;
+  Forecast forecast;
+};
+
+class ModelSelector {
+ public:
+  ModelSelector(const Scene& scene, const Observations& observations,
+                const EstimatorOptions& options, const ModelSelectionOptions& selection)
+      : scene_(scene),
+        observations_(observations),
+        options_(options),
+        selection_(selection),
+        stop_(options.max_seconds, options.interrupted),
+        num_frames_(NumFramesToFit(scene, observations, options.num_frames)),
+        num_fitted_(NumFittedFrames(num_frames_, selection.held_out_fraction)) {
+    Check(options, num_frames_);
+    forecaster_ = std::make_unique<Forecaster>(scene, observations_, num_fitted_,
+                                               num_frames_, options_, &stop_);
+    result_.selection.num_frames = num_frames_;
+    result_.selection.num_fitted_frames = num_fitted_;
+    result_.selection.criterion =
+        "forecast of the last " + std::to_string(num_frames_ - num_fitted_) +
+        " frames: a richer model is kept if its weight in the best mixture of both "
+        "forecasts is above 1/2 by two standard deviations";
+  }
+
+  SelectedModel Run() {
+    FitFirst();
+    if (!HasResult(best_.summary)) {
+      result_.selection.reason = "not even the first candidate could be fitted";
+      result_.summary = best_.summary;
+    } else {
+      for (const int object : selection_.objects) ChooseMode(object);
+      FitChosen();
+    }
+    result_.selection.chosen = SettingsString(best_.summary.scene);
+    result_.summary.wall_time_s = stop_.Seconds();
+    return result_;
+  }
+
+ private:
+  std::vector<ModelCandidate>& candidates() { return result_.selection.candidates; }
+
+  static ModelCandidate Row(const Scene& scene) {
+    ModelCandidate row;
+    row.settings = SettingsString(scene);
+    row.num_parameters = ParameterLayout(scene).size();
+    return row;
+  }
+
+  void FitFirst() {
+    best_.summary.scene = scene_;
+    for (const int object : selection_.objects) {
+      best_.summary.scene.objects[object].stiffness_mode = ParameterMode::kGlobal;
+    }
+    ModelCandidate row = Row(best_.summary.scene);
+    best_ = FitCandidate(best_.summary.scene, nullptr, &row);
+    row.kept = true;
+    row.reason = "the simplest";
+    candidates().push_back(row);
+    ExplainChoice(row);
+  }
+
+  void ChooseMode(int object) {
+    int num_parameters = ParameterLayout(best_.summary.scene).size();
+    for (const ParameterMode mode : {ParameterMode::kGroup, ParameterMode::kLocal}) {
+      Scene scene = best_.summary.scene;
+      scene.objects[object].stiffness_mode = mode;
+      ModelCandidate row = Row(scene);
+      if (row.num_parameters <= num_parameters) {
+        row.reason = mode == ParameterMode::kGroup
+                         ? "not tried: there is one group of springs"
+                         : "not tried: every spring is a group of its own";
+      } else if (best_.forecast.is_exact) {
+        row.reason = "not tried: " + SettingsString(best_.summary.scene) +
+                     " leaves nothing to explain";
+      } else if (stop_.Poll()) {
+        row.reason = "not tried: " + WhyStopped();
+      } else {
+        Try(scene, &row);
+      }
+      num_parameters = std::max(num_parameters, row.num_parameters);
+      candidates().push_back(row);
+      if (row.kept) ExplainChoice(row);
+    }
+  }
+
+  void Try(const Scene& scene, ModelCandidate* row) {
+    row->compared_with = SettingsString(best_.summary.scene);
+    FittedModel model = FitCandidate(scene, &best_, row);
+    Judge(model, row);
+    if (row->kept) best_ = std::move(model);
+  }
+
+  void Judge(const FittedModel& model, ModelCandidate* row) const {
+    if (!HasResult(model.summary)) {
+      row->reason = "not kept: the fit failed: " + model.summary.message;
+    } else if (!model.forecast.ok && stop_.stopped()) {
+      row->reason = "not judged: " + WhyStopped();
+    } else if (!model.forecast.ok) {
+      row->reason =
+          "not kept: cannot be simulated over all frames: " + model.forecast.message;
+    } else if (!best_.forecast.ok) {
+      row->kept = true;
+      row->reason = row->compared_with + " cannot be simulated over all frames";
+    } else {
+      const ForecastWeight weight =
+          WeighForecasts(best_.forecast.residuals, model.forecast.residuals);
+      row->weight = weight.weight;
+      row->weight_deviation = weight.deviation;
+      row->kept = weight.RicherIsBetter();
+      const std::string than = " than " + row->compared_with;
+      row->reason = row->kept             ? "a better forecast" + than
+                    : weight.weight > 0.5 ? "not kept: not significantly better" + than
+                                          : "not kept: no better a forecast" + than;
+    }
+    if (HasResult(model.summary) && !model.summary.usable()) {
+      row->reason += " (the fit stopped early: " + model.summary.message + ")";
+    }
+  }
+
+  std::string WhyStopped() const {
+    return stop_.was_interrupted() ? "interrupted by the user"
+                                   : "the time limit was reached";
+  }
+
+  void ExplainChoice(const ModelCandidate& row) {
+    std::string& reason = result_.selection.reason;
+    if (row.compared_with.empty()) {
+      reason = row.settings +
+               " is the simplest model, and no richer one's forecast is " +
+               "significantly better";
+      if (best_.forecast.is_exact) {
+        reason = row.settings + " reproduces the held-out frames to RMS " +
+                 Text(row.held_out_rms) + " m, which leaves nothing to explain";
+      }
+      return;
+    }
+    reason = row.settings + " forecasts the held-out frames to RMS " +
+             Text(row.held_out_rms) + " m, significantly better than " +
+             row.compared_with;
+    const auto simpler = std::find_if(
+        candidates().begin(), candidates().end(),
+        [&](const ModelCandidate& c) { return c.settings == row.compared_with; });
+    if (simpler != candidates().end() && std::isfinite(simpler->held_out_rms)) {
+      reason += " (" + Text(simpler->held_out_rms) + " m)";
+    }
+  }
+
+  FittedModel FitCandidate(const Scene& scene, const FittedModel* simpler,
+                           ModelCandidate* row) {
+    EstimatorOptions options = OptionsNow();
+    options.num_frames = num_fitted_;
+    options.max_seconds *= kShareOfTime;
+    options.uncertainty = UncertaintyMode::kOff;
+    options.function_tolerance =
+        std::max(options.function_tolerance, kCandidateFunctionTolerance);
+    Announce(*row, num_fitted_, false);
+    const double before = stop_.Seconds();
+    FittedModel model;
+    model.summary = FitFrom(
+        scene, simpler == nullptr ? kNoRms : simpler->summary.final_rms, options);
+    row->was_fitted = true;
+    row->termination = model.summary.termination;
+    row->iterations = model.summary.iterations;
+    row->fit_rms = model.summary.final_rms;
+    if (HasResult(model.summary)) {
+      model.forecast = forecaster_->Run(model.summary.scene);
+      if (model.forecast.ok) row->held_out_rms = model.forecast.rms;
+    }
+    row->seconds = stop_.Seconds() - before;
+    return model;
+  }
+
+  // Fits from the values in `scene`, which have this RMS (m, or kNoRms),
+  // or from where the options say, if that is closer to the target.
+  EstimatorSummary FitFrom(const Scene& scene, double rms,
+                           const EstimatorOptions& options) {
+    const Scene blank = WithModesOf(scene, scene_);
+    if (rms == kNoRms) return Estimate(blank, observations_, options);
+    const bool has_own_start =
+        options.init != InitMethod::kAuto ||
+        InverseDynamicsApplies(blank, CutFrames(observations_, 0, options.num_frames));
+    if (has_own_start) {
+      EstimatorOptions look = options;
+      look.max_iterations = 0;
+      look.horizon = Horizon::kFull;
+      look.uncertainty = UncertaintyMode::kOff;
+      look.max_checked_parameters = 0;
+      look.progress = nullptr;
+      if (Estimate(blank, observations_, look).initial_rms < rms) {
+        return Estimate(blank, observations_, options);
+      }
+    }
+    EstimatorOptions warm = options;
+    warm.init = InitMethod::kScene;
+    warm.init_perturbation = 0.0;
+    return Estimate(scene, observations_, warm);
+  }
+
+  void FitChosen() {
+    if (stop_.Poll()) {
+      result_.summary = best_.summary;
+      result_.summary.termination = stop_.was_interrupted() ? Termination::kInterrupted
+                                                            : Termination::kMaxSeconds;
+      result_.summary.message =
+          WhyStopped() + " before the chosen model was fitted to all frames";
+      result_.summary.notes.push_back("the values are of a fit to the first " +
+                                      std::to_string(num_fitted_) +
+                                      " frames; the others were held out");
+      return;
+    }
+    EstimatorOptions options = OptionsNow();
+    options.num_frames = num_frames_;
+    // The candidate's fit was the horizon before this one.
+    if (options.horizon == Horizon::kAuto) options.horizon = Horizon::kFull;
+    Announce(Row(best_.summary.scene), num_frames_, true);
+    result_.summary =
+        FitFrom(best_.summary.scene,
+                best_.forecast.ok ? best_.forecast.rms_of_all_frames : kNoRms, options);
+  }
+
+  void Announce(const ModelCandidate& row, int num_frames, bool is_final) const {
+    if (!selection_.started) return;
+    selection_.started({row.settings, row.num_parameters, num_frames, is_final});
+  }
+
+  // With what is left of the time, and reports in the time of the whole.
+  EstimatorOptions OptionsNow() const {
+    EstimatorOptions options = options_;
+    const double before = stop_.Seconds();
+    options.max_seconds = std::max(0.0, options.max_seconds - before);
+    if (options_.progress) {
+      options.progress = [this, before](IterationReport report) {
+        report.seconds += before;
+        options_.progress(report);
+      };
+    }
+    return options;
+  }
+
+  const Scene& scene_;
+  const Observations& observations_;
+  const EstimatorOptions& options_;
+  const ModelSelectionOptions& selection_;
+  StopControl stop_;
+  const int num_frames_;
+  const int num_fitted_;
+  std::unique_ptr<Forecaster> forecaster_;
+  FittedModel best_;
+  SelectedModel result_;
+};
+
+}  // namespace
+
+SelectedModel SelectModel(const Scene& scene, const Observations& observations,
+                          const EstimatorOptions& options,
+                          const ModelSelectionOptions& selection) {
+  return ModelSelector(scene, observations, options, selection).Run();
+}
+
+}  // namespace dpe
