@@ -11,6 +11,7 @@
 #include "fit_setup.h"
 #include "forecast.h"
 #include "forecast_weight.h"
+#include "score_test.h"
 #include "stop_control.h"
 
 namespace dpe {
@@ -22,8 +23,14 @@ constexpr int kMinFrames = 6;
 // Of what is left of max_seconds, for one candidate.
 constexpr double kShareOfTime = 0.5;
 
-// Candidates need not be fitted to the last digit to be told apart.
-constexpr double kCandidateFunctionTolerance = 1e-6;
+// With one unknown per element, the first iterations find what the motion determines;
+// later ones, which gain little, fit the noise with what it does not. Stopping between
+// the two regularises (Hanke, A regularizing Levenberg-Marquardt scheme, 1997). Exact
+// motions are not stopped by this: their cost falls by more until it is zero.
+constexpr double kElementFunctionTolerance = 1e-3;
+
+// A fit of so many parameters takes less time than to find out whether it is needed.
+constexpr int kFewParameters = 50;
 
 // Of values that no fit gave.
 constexpr double kNoRms = -1.0;
@@ -63,6 +70,18 @@ void Check(const EstimatorOptions& options, int num_frames) {
 int NumFittedFrames(int num_frames, double held_out_fraction) {
   const int held_out = static_cast<int>(std::lround(num_frames * held_out_fraction));
   return num_frames - std::clamp(held_out, 1, num_frames - 3);
+}
+
+bool HasElements(const Scene& scene) {
+  const std::vector<ParameterBlock> blocks = ParameterLayout(scene).blocks();
+  return std::any_of(blocks.begin(), blocks.end(), [](const ParameterBlock& block) {
+    return block.mode == ParameterMode::kLocal;
+  });
+}
+
+void StopEarly(EstimatorOptions* options) {
+  options->function_tolerance =
+      std::max(options->function_tolerance, kElementFunctionTolerance);
 }
 
 struct FittedModel {
@@ -155,9 +174,22 @@ class ModelSelector {
 
   void Try(const Scene& scene, ModelCandidate* row) {
     row->compared_with = SettingsString(best_.summary.scene);
+    if (IsFutile(scene, *row)) {
+      row->reason = "not tried: what " + row->compared_with +
+                    " leaves unexplained has no more to do with these parameters than "
+                    "noise has (score test)";
+      return;
+    }
     FittedModel model = FitCandidate(scene, &best_, row);
     Judge(model, row);
     if (row->kept) best_ = std::move(model);
+  }
+
+  bool IsFutile(const Scene& scene, const ModelCandidate& row) {
+    if (row.num_parameters <= kFewParameters) return false;
+    EstimatorOptions options = options_;
+    options.num_frames = num_fitted_;
+    return TestScore(scene, observations_, options, &stop_).NothingToGain();
   }
 
   void Judge(const FittedModel& model, ModelCandidate* row) const {
@@ -221,8 +253,7 @@ class ModelSelector {
     options.num_frames = num_fitted_;
     options.max_seconds *= kShareOfTime;
     options.uncertainty = UncertaintyMode::kOff;
-    options.function_tolerance =
-        std::max(options.function_tolerance, kCandidateFunctionTolerance);
+    if (HasElements(scene)) StopEarly(&options);
     Announce(*row, num_fitted_, false);
     const double before = stop_.Seconds();
     FittedModel model;
@@ -282,10 +313,20 @@ class ModelSelector {
     options.num_frames = num_frames_;
     // The candidate's fit was the horizon before this one.
     if (options.horizon == Horizon::kAuto) options.horizon = Horizon::kFull;
+    const bool stops_early =
+        HasElements(best_.summary.scene) && !best_.forecast.is_exact;
+    if (stops_early) StopEarly(&options);
     Announce(Row(best_.summary.scene), num_frames_, true);
     result_.summary =
         FitFrom(best_.summary.scene,
                 best_.forecast.ok ? best_.forecast.rms_of_all_frames : kNoRms, options);
+    if (stops_early && result_.summary.usable()) {
+      result_.summary.notes.push_back(
+          "the fit was ended, as the candidate's was, where an iteration lowered the "
+          "cost "
+          "by less than 1 %: with one unknown per element more would fit the noise; a "
+          "fit with these settings alone goes on");
+    }
   }
 
   void Announce(const ModelCandidate& row, int num_frames, bool is_final) const {

@@ -112,9 +112,13 @@ void ProgressTable::Tick(double seconds) {
 
 void PrintTask(const EstimationJob& job, const EstimationInput& input) {
   const ParameterLayout layout(input.scene);
-  std::cout << "Scene " << job.scene_path << ", settings "
-            << SettingsString(input.scene) << ": " << layout.size()
-            << " parameters to fit to " << input.num_frames << " frames of "
+  std::cout << "Scene " << job.scene_path << ", settings ";
+  if (input.auto_objects.empty()) {
+    std::cout << SettingsString(input.scene) << ": " << layout.size() << " parameters";
+  } else {
+    std::cout << job.settings << ": models";
+  }
+  std::cout << " to fit to " << input.num_frames << " frames of "
             << (job.target_path.empty() ? "the scene's own motion" : job.target_path)
             << std::endl;
 }
