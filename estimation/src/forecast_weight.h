@@ -23,6 +23,9 @@
 //   1986):
 //                  s^2 = B / (B - 1) sum_b (D_b.u_b)^2 / (D.D)^2
 //
+// (which is a quarter too small where neighbouring frames' noise correlates by 0.6, and
+// honest where it does not: forecast_weight_test.cc).
+//
 // Squared errors themselves, averaged over blocks, would do worse: a wrong model's
 // error grows with time, and its growth would count as scatter. Here that is part of
 // w D. The fits' own errors from noise in the fitted frames are in r and q as they are:

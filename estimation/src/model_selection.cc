@@ -27,7 +27,7 @@ constexpr double kShareOfTime = 0.5;
 // later ones, which gain little, fit the noise with what it does not. Stopping between
 // the two regularises (Hanke, A regularizing Levenberg-Marquardt scheme, 1997). Exact
 // motions are not stopped by this: their cost falls by more until it is zero.
-constexpr double kElementFunctionTolerance = 1e-3;
+constexpr double kElementFunctionTolerance = 1e-2;
 
 // A fit of so many parameters takes less time than to find out whether it is needed.
 constexpr int kFewParameters = 50;

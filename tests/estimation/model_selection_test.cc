@@ -110,7 +110,7 @@ TEST(ModelSelectionTest, ExactMotionsChooseTheirTruth) {
 // Without inverse dynamics: each candidate starts from the one before.
 TEST(ModelSelectionTest, ExactMarkersOnSomeOfTheClothChooseTheirTruth) {
   for (const char mode : {'G', 'R', 'L'}) {
-    const Scene truth = Truth(mode);
+    const Scene truth = Truth(mode, 5);
     Observations target = test::OwnMotion(truth, kFrames);
     for (int v = 0; v < truth.objects[0].num_vertices(); v += 4) {
       target.positions[0]
