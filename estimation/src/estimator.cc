@@ -294,7 +294,22 @@ class Fit {
       summary_.notes.push_back(checkpoints_.problem());
     }
     FindUncertainty(has_result);
+    FindSensitivity(has_result);
     summary_.wall_time_s = stop_.Seconds();
+  }
+
+  void FindSensitivity(bool has_result) {
+    if (!has_result || stop_.stopped() ||
+        options_.uncertainty == UncertaintyMode::kOff) {
+      summary_.sensitivity.message = "not asked for, or the fit was stopped";
+      return;
+    }
+    SimulatorOptions options;
+    options.num_threads = options_.num_threads;
+    options.memory_limit_bytes = options_.memory_limit_bytes;
+    options.interrupted = [this] { return stop_.Poll(); };
+    summary_.sensitivity =
+        ComputeMotionSensitivity(summary_.scene, fit_.num_frames(), options);
   }
 
   void FindUncertainty(bool has_result) {
@@ -306,8 +321,8 @@ class Fit {
                                  fit_.noise_is_known())) {
       summary_.uncertainty.message = "not asked for";
     } else {
-      summary_.uncertainty =
-          UncertaintyOfFit(blank_, fit_.noise_is_known(), options_, evaluator());
+      summary_.uncertainty = UncertaintyOfFit(
+          blank_, fit_.observations(), fit_.noise_is_known(), options_, evaluator());
     }
   }
 

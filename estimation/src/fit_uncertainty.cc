@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fit_problem.h"
+#include "residual_correlation.h"
 #include "tall_qr.h"
 
 namespace dpe {
@@ -42,8 +43,8 @@ bool WantsUncertainty(const EstimatorOptions& options, int num_parameters,
   return noise_is_known || num_parameters <= kFewParameters;
 }
 
-Uncertainty UncertaintyOfFit(const Scene& scene, bool noise_is_known,
-                             const EstimatorOptions& options,
+Uncertainty UncertaintyOfFit(const Scene& scene, const Observations& observations,
+                             bool noise_is_known, const EstimatorOptions& options,
                              TrajectoryEvaluator* evaluator) {
   const double bytes = JacobianBytes(*evaluator);
   if (bytes > options.max_lm_jacobian_bytes) {
@@ -55,7 +56,11 @@ Uncertainty UncertaintyOfFit(const Scene& scene, bool noise_is_known,
       !evaluator->EvaluateJacobian()) {
     return NotComputed(evaluator->message());
   }
+  const ResidualCorrelation correlation = CorrelateResiduals(
+      evaluator->trajectory(), observations, observations.num_frames());
   UncertaintyInput input;
+  input.residual_correlation = correlation.rho;
+  input.num_residual_pairs = correlation.num_pairs;
   input.scene = &scene;
   input.layout = &evaluator->layout();
   input.coordinates = evaluator->best_coordinates();

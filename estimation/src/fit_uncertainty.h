@@ -4,6 +4,7 @@
 
 #include "dpe/engine/scene.h"
 #include "dpe/estimation/estimator.h"
+#include "dpe/estimation/observations.h"
 #include "dpe/estimation/trajectory_evaluator.h"
 #include "dpe/estimation/uncertainty.h"
 
@@ -18,8 +19,8 @@ bool WantsUncertainty(const EstimatorOptions& options, int num_parameters,
 // the result is not ok and says why.
 //
 // @param scene  of the evaluator's layout, for names
-Uncertainty UncertaintyOfFit(const Scene& scene, bool noise_is_known,
-                             const EstimatorOptions& options,
+Uncertainty UncertaintyOfFit(const Scene& scene, const Observations& observations,
+                             bool noise_is_known, const EstimatorOptions& options,
                              TrajectoryEvaluator* evaluator);
 
 }  // namespace dpe

@@ -12,6 +12,7 @@
 #include "dpe/engine/scene.h"
 #include "dpe/engine/sensitivity.h"
 #include "dpe/engine/trajectory.h"
+#include "dpe/estimation/motion_sensitivity.h"
 #include "dpe/estimation/observations.h"
 #include "dpe/estimation/robust_loss.h"
 #include "dpe/estimation/uncertainty.h"
@@ -166,6 +167,9 @@ struct EstimatorSummary {
   Scene scene;  // the input scene with the estimated values in it
   // Not ok, with a message, where none was computed.
   Uncertainty uncertainty;
+  // Of the fitted motion; left out with UncertaintyMode::kOff and where the fit was
+  // stopped.
+  MotionSensitivity sensitivity;
 
   bool usable() const { return termination == Termination::kConverged; }
 };
@@ -175,7 +179,8 @@ struct EstimatorSummary {
 // used, except by InitMethod::kScene; where mass and stiffness are both estimated and
 // no known force fixes their scale, the object's total mass is (and a note says so).
 //
-// @throws SceneError if nothing is estimated or observed, an option does not fit, or the
+// @throws SceneError if nothing is estimated or observed, an option does not fit, or
+// the
 //         checkpoint to resume from cannot be read or is of another fit.
 EstimatorSummary Estimate(const Scene& scene, const Observations& observations,
                           const EstimatorOptions& options);

@@ -76,10 +76,11 @@ Eigen::Vector3d MarkerPosition(const Trajectory& trajectory, const Marker& marke
                                double time, int num_frames);
 
 // sqrt(sum |x - x_hat|^2 / number of observed positions), m, of vertices and of
-// markers, over the first `num_frames` frames of the objects that the trajectory holds;
-// NaN without any. Noise makes no difference to it: every observation counts the same.
+// markers, of the objects that the trajectory holds, over the frames from `first_frame`
+// to the `num_frames`-th; NaN without any. Noise makes no difference to it: every
+// observation counts the same.
 double RmsPositionError(const Trajectory& trajectory, const Observations& observations,
-                        int num_frames);
+                        int num_frames, int first_frame = 0);
 
 }  // namespace dpe
 
