@@ -43,7 +43,7 @@ bool WantsUncertainty(const EstimatorOptions& options, int num_parameters,
   return noise_is_known || num_parameters <= kFewParameters;
 }
 
-Uncertainty UncertaintyOfFit(const Scene& scene, const Observations& observations,
+Uncertainty UncertaintyOfFit(const std::vector<FitCapture>& captures,
                              bool noise_is_known, const EstimatorOptions& options,
                              TrajectoryEvaluator* evaluator) {
   const double bytes = JacobianBytes(*evaluator);
@@ -56,12 +56,15 @@ Uncertainty UncertaintyOfFit(const Scene& scene, const Observations& observation
       !evaluator->EvaluateJacobian()) {
     return NotComputed(evaluator->message());
   }
-  const ResidualCorrelation correlation = CorrelateResiduals(
-      evaluator->trajectory(), observations, observations.num_frames());
+  ResidualCorrelation correlation;
+  for (int c = 0; c < static_cast<int>(captures.size()); ++c) {
+    CorrelateResiduals(evaluator->trajectory(c), captures[c].observations,
+                       captures[c].num_frames, &correlation);
+  }
   UncertaintyInput input;
-  input.residual_correlation = correlation.rho;
+  input.residual_correlation = correlation.rho();
   input.num_residual_pairs = correlation.num_pairs;
-  input.scene = &scene;
+  input.scene = &captures[0].blank;
   input.layout = &evaluator->layout();
   input.coordinates = evaluator->best_coordinates();
   input.data_triangle = evaluator->num_segments() == 1

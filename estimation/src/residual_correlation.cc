@@ -8,24 +8,15 @@
 namespace dpe {
 namespace {
 
-class Pairs {
- public:
-  void Add(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    products_ += a.dot(b);
-    squares_ += 0.5 * (a.squaredNorm() + b.squaredNorm());
-    count_ += 3;
-  }
-  ResidualCorrelation Result() const {
-    return {squares_ > 0.0 ? products_ / squares_ : 0.0, count_};
-  }
-
- private:
-  double products_ = 0.0, squares_ = 0.0;
-  long count_ = 0;
-};
+void AddPair(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+             ResidualCorrelation* correlation) {
+  correlation->products += a.dot(b);
+  correlation->squares += 0.5 * (a.squaredNorm() + b.squaredNorm());
+  correlation->num_pairs += 3;
+}
 
 void AddVertices(const Trajectory& trajectory, const Observations& observations,
-                 int num_frames, Pairs* pairs) {
+                 int num_frames, ResidualCorrelation* correlation) {
   const size_t num_objects =
       std::min(trajectory.positions.size(), observations.positions.size());
   for (size_t object = 0; object < num_objects; ++object) {
@@ -41,7 +32,7 @@ void AddVertices(const Trajectory& trajectory, const Observations& observations,
     for (int v = 0; v < simulated.rows() / 3; ++v) {
       for (int f = 1; f < frames; ++f) {
         if (observations.IsObserved(o, v, f - 1) && observations.IsObserved(o, v, f)) {
-          pairs->Add(error(v, f - 1), error(v, f));
+          AddPair(error(v, f - 1), error(v, f), correlation);
         }
       }
     }
@@ -49,7 +40,7 @@ void AddVertices(const Trajectory& trajectory, const Observations& observations,
 }
 
 void AddSamples(const Trajectory& trajectory, const Observations& observations,
-                int num_frames, Pairs* pairs) {
+                int num_frames, ResidualCorrelation* correlation) {
   std::vector<const MarkerSample*> samples;
   for (const MarkerSample& sample : observations.samples) {
     if (!IsWithinFrames(sample.time, num_frames)) continue;
@@ -67,20 +58,17 @@ void AddSamples(const Trajectory& trajectory, const Observations& observations,
   };
   for (size_t i = 1; i < samples.size(); ++i) {
     if (samples[i]->marker != samples[i - 1]->marker) continue;
-    pairs->Add(error(*samples[i - 1]), error(*samples[i]));
+    AddPair(error(*samples[i - 1]), error(*samples[i]), correlation);
   }
 }
 
 }  // namespace
 
-ResidualCorrelation CorrelateResiduals(const Trajectory& trajectory,
-                                       const Observations& observations,
-                                       int num_frames) {
-  Pairs pairs;
+void CorrelateResiduals(const Trajectory& trajectory, const Observations& observations,
+                        int num_frames, ResidualCorrelation* correlation) {
   num_frames = std::min(num_frames, trajectory.num_frames());
-  AddVertices(trajectory, observations, num_frames, &pairs);
-  AddSamples(trajectory, observations, num_frames, &pairs);
-  return pairs.Result();
+  AddVertices(trajectory, observations, num_frames, correlation);
+  AddSamples(trajectory, observations, num_frames, correlation);
 }
 
 }  // namespace dpe

@@ -16,14 +16,16 @@ namespace dpe {
 // it 0 to within 1 / sqrt(number of coordinates); errors of the model, which last, make
 // it nearly 1.
 struct ResidualCorrelation {
-  double rho = 0.0;
-  long num_pairs = 0;  // of coordinates
+  double products = 0.0, squares = 0.0;  // the two sums, m^2
+  long num_pairs = 0;                    // of coordinates
+
+  double rho() const { return squares > 0.0 ? products / squares : 0.0; }
 };
 
+// Adds the pairs of one motion.
 // @param num_frames  of the trajectory, to compare
-ResidualCorrelation CorrelateResiduals(const Trajectory& trajectory,
-                                       const Observations& observations,
-                                       int num_frames);
+void CorrelateResiduals(const Trajectory& trajectory, const Observations& observations,
+                        int num_frames, ResidualCorrelation* correlation);
 
 }  // namespace dpe
 

@@ -30,6 +30,12 @@ class ResidualCorrelationTest : public ::testing::Test {
     return 0.01 * errors;
   }
 
+  ResidualCorrelation Correlate() const {
+    ResidualCorrelation result;
+    CorrelateResiduals(trajectory_, observations_, kFrames, &result);
+    return result;
+  }
+
   Trajectory trajectory_;
   Observations observations_;
   std::mt19937 generator_{7};
@@ -38,10 +44,9 @@ class ResidualCorrelationTest : public ::testing::Test {
 TEST_F(ResidualCorrelationTest, IsThatOfTheProcess) {
   for (const double phi : {0.0, 0.5, 0.95}) {
     observations_.positions = {trajectory_.positions[0] + Process(phi)};
-    const ResidualCorrelation result =
-        CorrelateResiduals(trajectory_, observations_, kFrames);
+    const ResidualCorrelation result = Correlate();
     EXPECT_EQ(result.num_pairs, 3L * kVertices * (kFrames - 1));
-    EXPECT_NEAR(result.rho, phi, 5.0 / std::sqrt(result.num_pairs)) << phi;
+    EXPECT_NEAR(result.rho(), phi, 5.0 / std::sqrt(result.num_pairs)) << phi;
   }
 }
 
@@ -51,10 +56,9 @@ TEST_F(ResidualCorrelationTest, PairsNeedBothFrames) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (int f = 2; f < kFrames; f += 3) errors.col(f).setConstant(nan);
   observations_.positions = {trajectory_.positions[0] + errors};
-  const ResidualCorrelation result =
-      CorrelateResiduals(trajectory_, observations_, kFrames);
+  const ResidualCorrelation result = Correlate();
   EXPECT_EQ(result.num_pairs, 3L * kVertices * 67);
-  EXPECT_NEAR(result.rho, 0.5, 5.0 / std::sqrt(result.num_pairs));
+  EXPECT_NEAR(result.rho(), 0.5, 5.0 / std::sqrt(result.num_pairs));
 }
 
 // Samples of one marker, in whatever order, against the next of the same marker.
@@ -75,17 +79,15 @@ TEST_F(ResidualCorrelationTest, Markers) {
       observations_.samples.push_back(sample);
     }
   }
-  const ResidualCorrelation result =
-      CorrelateResiduals(trajectory_, observations_, kFrames);
+  const ResidualCorrelation result = Correlate();
   EXPECT_EQ(result.num_pairs, 3L * kVertices * (kFrames - 1));
-  EXPECT_NEAR(result.rho, 0.8, 5.0 / std::sqrt(result.num_pairs));
+  EXPECT_NEAR(result.rho(), 0.8, 5.0 / std::sqrt(result.num_pairs));
 }
 
 TEST_F(ResidualCorrelationTest, NothingObservedIsNoPair) {
-  const ResidualCorrelation result =
-      CorrelateResiduals(trajectory_, observations_, kFrames);
+  const ResidualCorrelation result = Correlate();
   EXPECT_EQ(result.num_pairs, 0);
-  EXPECT_EQ(result.rho, 0.0);
+  EXPECT_EQ(result.rho(), 0.0);
 }
 
 }  // namespace
