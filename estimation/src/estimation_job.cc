@@ -96,13 +96,18 @@ void EstimateMore(const std::string& what, Scene* scene) {
   }
 }
 
-std::string SceneName(const EstimationJob& job) {
-  return std::filesystem::path(job.scene_path).stem().string();
+// The file that the scene comes from.
+const std::string& SceneName(const EstimationJob& job) {
+  return job.scene_path.empty() ? job.target_path : job.scene_path;
+}
+
+std::string NameWith(const EstimationJob& job, const std::string& settings) {
+  return std::filesystem::path(SceneName(job)).stem().string() + "_" + settings;
 }
 
 std::string FolderName(const EstimationJob& job, const Scene& scene) {
   const bool is_auto = job.settings.find("auto") != std::string::npos;
-  return is_auto ? SceneName(job) + "_" + job.settings : JobName(job, scene);
+  return NameWith(job, is_auto ? job.settings : SettingsString(scene));
 }
 
 bool HasResult(const EstimatorSummary& summary) {
@@ -112,19 +117,21 @@ bool HasResult(const EstimatorSummary& summary) {
 }  // namespace
 
 std::string JobName(const EstimationJob& job, const Scene& scene) {
-  return SceneName(job) + "_" + SettingsString(scene);
+  return NameWith(job, SettingsString(scene));
 }
 
 EstimationInput LoadEstimationInput(const EstimationJob& job) {
   EstimationInput input;
-  input.scene = LoadScene(job.scene_path, &input.warnings);
+  input.scene = job.scene_path.empty() ? SceneFromTarget(job.target_path, job.target,
+                                                         job.scene_from_target)
+                                       : LoadScene(job.scene_path, &input.warnings);
   if (!job.settings.empty()) {
     input.auto_objects = ApplyAutoSettings(job.settings, &input.scene);
   }
   for (const std::string& what : job.estimate) EstimateMore(what, &input.scene);
   if (ParameterLayout(input.scene).size() == 0) {
     throw SceneError(
-        job.scene_path + ": nothing is estimated (settings \"" +
+        SceneName(job) + ": nothing is estimated (settings \"" +
         SettingsString(input.scene) +
         "\"); accepted in --settings are two letters per object, mass then "
         "stiffness, each n, G, L or R and not all n, or auto");
@@ -161,7 +168,7 @@ std::string PrepareOutputDir(const EstimationJob& job, const Scene& scene) {
 Validation Validate(const EstimatorSummary& summary, const EstimationInput& input,
                     int num_threads) {
   Validation validation;
-  validation.rms = std::numeric_limits<double>::quiet_NaN();
+  validation.rms = validation.held_out_rms = std::numeric_limits<double>::quiet_NaN();
   if (!HasResult(summary)) return validation;
   validation.num_frames = input.num_validation_frames;
   SimulatorOptions options;
@@ -176,6 +183,9 @@ Validation Validate(const EstimatorSummary& summary, const EstimationInput& inpu
   } else if (validation.num_frames > 0) {
     validation.rms =
         RmsPositionError(validation.trajectory, input.reference, validation.num_frames);
+    validation.held_out_rms =
+        RmsPositionError(validation.trajectory, input.reference, validation.num_frames,
+                         summary.num_frames);
   }
   return validation;
 }

@@ -56,7 +56,7 @@ bool ScoreTest::NothingToGain() const { return ok && excess < kDeviations; }
 
 ScoreTest TestScore(const Scene& scene, const Observations& observations,
                     const EstimatorOptions& options, StopControl* stop) {
-  FitProblem fit(WithoutEstimatedValues(scene), observations, options.num_frames,
+  FitProblem fit(PrepareCaptures({{&scene, &observations, ""}}, options.num_frames),
                  options, stop);
   TrajectoryEvaluator* evaluator = fit.evaluator();
   const Eigen::VectorXd coordinates =
