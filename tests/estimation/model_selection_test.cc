@@ -185,12 +185,8 @@ TEST(ModelSelectionTest, TheMassStaysAsTheSceneHasIt) {
   Scene scene = Truth('R', 5);
   ApplySettings("GL", &scene);
   EXPECT_EQ(ApplyAutoSettings("auto", &scene), std::vector<int>{0});
-  const ParameterLayout layout(scene);
-  layout.Insert(layout.Extract(scene), &scene);
-  scene = Truth('R', 5);
-  ApplySettings("GG", &scene);
-  const ParameterLayout uniform_mass(scene);
-  const double mass = uniform_mass.Extract(scene)[0];
+  EXPECT_EQ(SettingsString(scene), "GG");
+  const double mass = ParameterLayout(scene).Extract(scene)[0];
   scene.objects[0].mass.setConstant(mass);
   const SelectedModel model = Select(scene, test::OwnMotion(scene, kFrames));
   EXPECT_EQ(model.selection.chosen, "GR");
@@ -261,6 +257,32 @@ TEST(ModelSelectionTest, ProgressRunsInTheTimeOfTheWhole) {
   const SelectedModel model = Select(truth, test::OwnMotion(truth, kFrames), options);
   EXPECT_FALSE(runs_backwards);
   EXPECT_GE(model.summary.wall_time_s, last);
+}
+
+// Samples between frames are held out by their times.
+TEST(ModelSelectionTest, MarkersBetweenFramesAreHeldOutToo) {
+  const Scene truth = Truth('R', 5);
+  const Trajectory motion =
+      Simulator(truth, test::OnlyEstimatedObjects()).Simulate(kFrames);
+  Observations target;
+  for (const int vertex : {3, 7, 11, 16}) {
+    Marker marker;
+    marker.vertices = {vertex};
+    marker.weights = {1.0};
+    target.markers.push_back(marker);
+    for (double time = 0.7; time < kFrames - 1; time += 1.3) {
+      MarkerSample sample;
+      sample.marker = static_cast<int>(target.markers.size()) - 1;
+      sample.time = time;
+      sample.position = MarkerPosition(motion, marker, time, kFrames);
+      target.samples.push_back(sample);
+    }
+  }
+  const SelectedModel model = Select(truth, target);
+  EXPECT_EQ(model.selection.chosen, "nR");
+  // Errors grow with time: those of the fitted frames are not among them.
+  const ModelCandidate& simplest = Row(model, "nG");
+  EXPECT_GT(simplest.held_out_rms, 1.5 * simplest.fit_rms);
 }
 
 TEST(ModelSelectionTest, BadInputSaysWhatIsAccepted) {
