@@ -48,6 +48,20 @@ TEST(HorizonTest, GrowingFindsWhatAllFramesAtOnceDoNot) {
   EXPECT_FALSE(full.final_rms < 1e3 * grown.final_rms);  // also if there is none
 }
 
+// Few frames hold all that is to be known of springs that hardly move the motion in so
+// short a time. With steps that are changes of logarithms this takes more than 200
+// iterations.
+TEST(HorizonTest, StiffnessesThatMakeUpForEachOtherAreFoundInFewIterations) {
+  Scene scene = test::MakeDerivativeScene("flag", 7);
+  ApplySettings("nL", &scene);
+  const EstimatorSummary summary =
+      Estimate(scene, test::OwnMotion(scene, 20), FromUniformStart(Horizon::kAuto));
+  EXPECT_EQ(summary.termination, Termination::kConverged) << summary.message;
+  EXPECT_LT(summary.final_rms, 1e-11);
+  EXPECT_LT(ParameterDeviationPercent(summary, scene), 1e-3);
+  EXPECT_LT(summary.iterations, 60);
+}
+
 // A capture that begins in the middle of the motion.
 TEST(HorizonTest, GrowsFromTheFirstFrameThatWasSeen) {
   const Scene scene = FlagWithLocalStiffness();
