@@ -1,9 +1,9 @@
 // Steps of logarithms of positive quantities that change the quantities themselves in
 // proportion.
 //
-// An optimiser's linear model holds for a step d of the coordinate q = ln p. Of the many
-// ways to take that step, all the same to first order, this one moves along a straight
-// line in p:
+// An optimiser's linear model holds for a step d of the coordinate q = ln p. Of the
+// many ways to take that step, all the same to first order, this one moves along a
+// straight line in p:
 //
 //   q (+) d = ln(p (1 + d)) = q + ln(1 + d),          d >= -1/2,
 //           = q - ln 2 - ln(1 - 2 (d + 1/2)),         d < -1/2,
