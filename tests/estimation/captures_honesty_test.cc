@@ -87,14 +87,15 @@ struct Fit {
 };
 
 Fit FitTo(const std::vector<CapturedMotion>& captures, const Eigen::VectorXd& truth,
-          InitMethod init = InitMethod::kUniform) {
+          InitMethod init = InitMethod::kAuto) {
   EstimatorOptions options;
   options.init = init;
-  options.uniform_value = 10.0;
   const EstimatorSummary summary = Estimate(captures, options);
   EXPECT_TRUE(summary.usable()) << summary.message;
   EXPECT_TRUE(summary.uncertainty.ok) << summary.uncertainty.message;
-  EXPECT_EQ(summary.uncertainty.rank, kNumParameters);
+  EXPECT_EQ(summary.uncertainty.rank, kNumParameters)
+      << captures[0].name << " ... " << captures.back().name << ", "
+      << summary.parameters.transpose();
   Fit fit;
   fit.error = (summary.parameters.array() / truth.array()).log();
   fit.deviation = summary.uncertainty.covariance.diagonal().cwiseSqrt();
