@@ -75,14 +75,18 @@ void EstimateMore(const std::string& what, Scene* scene) {
   }
 }
 
+// @param path  of the scene; empty: it is made of `target`
 Scene LoadJobScene(const EstimationJob& job, const std::string& path,
-                   std::vector<std::string>* warnings) {
-  Scene scene = LoadScene(path, warnings);
+                   const std::string& target, std::vector<std::string>* warnings) {
+  Scene scene = path.empty()
+                    ? SceneFromTarget(target, job.target, job.scene_from_target)
+                    : LoadScene(path, warnings);
   if (!job.settings.empty()) ApplySettings(job.settings, &scene);
   for (const std::string& what : job.estimate) EstimateMore(what, &scene);
   if (ParameterLayout(scene).size() == 0) {
     throw SceneError(
-        path + ": nothing is estimated (settings \"" + SettingsString(scene) +
+        (path.empty() ? target : path) + ": nothing is estimated (settings \"" +
+        SettingsString(scene) +
         "\"); accepted in --settings are two letters per object, mass then "
         "stiffness, each n, G, L or R and not all n");
   }
@@ -94,23 +98,26 @@ std::vector<CaptureInput> PairScenesWithTargets(const EstimationJob& job,
                                                 std::vector<std::string>* warnings) {
   const size_t num_scenes = job.scene_paths.size();
   const size_t num_targets = job.target_paths.size();
-  if (num_scenes == 0 ||
-      (num_targets != 0 && num_scenes != 1 && num_targets != num_scenes)) {
+  const bool is_one_for_all = num_scenes == 1 && num_targets > 1;
+  const bool are_pairs = num_scenes == 0 || num_targets == 0;
+  if (num_scenes + num_targets == 0 ||
+      !(is_one_for_all || are_pairs || num_targets == num_scenes)) {
     throw SceneError("--scene and --target: there are " + std::to_string(num_scenes) +
                      " scenes and " + std::to_string(num_targets) +
                      " targets; accepted are a target for each scene, one scene for "
-                     "all targets, or no target");
+                     "all targets, or one of them only");
   }
   std::vector<CaptureInput> captures;
-  for (const std::string& path : job.scene_paths) {
+  for (size_t c = 0; c < std::max(num_scenes, num_targets); ++c) {
     CaptureInput capture;
-    capture.scene_path = path;
-    capture.scene = LoadJobScene(job, path, warnings);
+    if (num_targets > 0) capture.target_path = job.target_paths[c];
+    if (num_scenes > 0) capture.scene_path = job.scene_paths[is_one_for_all ? 0 : c];
+    // What is to be said of one scene is to be said once.
+    const bool is_known = is_one_for_all && c > 0;
+    capture.scene =
+        is_known ? captures[0].scene
+                 : LoadJobScene(job, capture.scene_path, capture.target_path, warnings);
     captures.push_back(std::move(capture));
-  }
-  if (num_scenes == 1 && num_targets > 1) captures.resize(num_targets, captures[0]);
-  for (size_t c = 0; c < num_targets; ++c) {
-    captures[c].target_path = job.target_paths[c];
   }
   return captures;
 }
@@ -138,8 +145,9 @@ void RequireFrames(const EstimationJob& job, const EstimationInput& input) {
 
 // "capture 2 (b.txt, b.csv)"
 std::string CaptureName(const CaptureInput& capture, size_t index) {
+  const bool has_both = !capture.scene_path.empty() && !capture.target_path.empty();
   return "capture " + std::to_string(index + 1) + " (" + capture.scene_path +
-         (capture.target_path.empty() ? "" : ", " + capture.target_path) + ")";
+         (has_both ? ", " : "") + capture.target_path + ")";
 }
 
 std::vector<std::string> CaptureNames(const EstimationInput& input) {
@@ -164,7 +172,7 @@ void AddTargetNoise(const EstimationJob& job, size_t index, CaptureInput* captur
 Validation ValidateOne(const CaptureSummary& fitted, const CaptureInput& input,
                        int num_threads) {
   Validation validation;
-  validation.rms = std::numeric_limits<double>::quiet_NaN();
+  validation.rms = validation.held_out_rms = std::numeric_limits<double>::quiet_NaN();
   validation.num_frames = input.num_validation_frames;
   SimulatorOptions options;
   options.only_estimated_objects = true;
@@ -179,6 +187,9 @@ Validation ValidateOne(const CaptureSummary& fitted, const CaptureInput& input,
     AddPositionErrors(validation.trajectory, input.reference, validation.num_frames,
                       &validation.errors);
     validation.rms = validation.errors.Rms();
+    AddPositionErrors(validation.trajectory, input.reference, validation.num_frames,
+                      &validation.held_out_errors, fitted.num_frames);
+    validation.held_out_rms = validation.held_out_errors.Rms();
   }
   return validation;
 }
@@ -229,6 +240,7 @@ std::vector<Validation> Validate(const EstimatorSummary& summary,
       validations[c] = ValidateOne(summary.captures[c], input.captures[c], num_threads);
     } else {
       validations[c].rms = std::numeric_limits<double>::quiet_NaN();
+      validations[c].held_out_rms = validations[c].rms;
     }
   }
   return validations;
@@ -241,10 +253,14 @@ Validation Together(const std::vector<Validation>& validations) {
     all.num_frames = std::max(all.num_frames, one.num_frames);
     all.errors.sum += one.errors.sum;
     all.errors.count += one.errors.count;
+    all.held_out_errors.sum += one.held_out_errors.sum;
+    all.held_out_errors.count += one.held_out_errors.count;
     if (all.note.empty()) all.note = one.note;
     has_all &= std::isfinite(one.rms);
   }
-  all.rms = has_all ? all.errors.Rms() : std::numeric_limits<double>::quiet_NaN();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  all.rms = has_all ? all.errors.Rms() : nan;
+  all.held_out_rms = has_all ? all.held_out_errors.Rms() : nan;
   return all;
 }
 

@@ -294,7 +294,29 @@ class Fit {
       summary_.notes.push_back(checkpoints_.problem());
     }
     FindUncertainty(has_result);
+    FindSensitivity(has_result);
     summary_.wall_time_s = stop_.Seconds();
+  }
+
+  // Of every capture; that of the fit is the largest.
+  void FindSensitivity(bool has_result) {
+    if (!has_result || stop_.stopped() ||
+        options_.uncertainty == UncertaintyMode::kOff) {
+      summary_.sensitivity.message = "not asked for, or the fit was stopped";
+      return;
+    }
+    SimulatorOptions options;
+    options.num_threads = options_.num_threads;
+    options.memory_limit_bytes = options_.memory_limit_bytes;
+    options.interrupted = [this] { return stop_.Poll(); };
+    for (CaptureSummary& capture : summary_.captures) {
+      capture.sensitivity =
+          ComputeMotionSensitivity(capture.scene, capture.num_frames, options);
+      if (!summary_.sensitivity.ok ||
+          capture.sensitivity.growth > summary_.sensitivity.growth) {
+        summary_.sensitivity = capture.sensitivity;
+      }
+    }
   }
 
   void SummariseCaptures(bool has_result) {
@@ -319,8 +341,8 @@ class Fit {
                                  fit_.noise_is_known())) {
       summary_.uncertainty.message = "not asked for";
     } else {
-      summary_.uncertainty = UncertaintyOfFit(
-          fit_.captures()[0].blank, fit_.noise_is_known(), options_, evaluator());
+      summary_.uncertainty = UncertaintyOfFit(fit_.captures(), fit_.noise_is_known(),
+                                              options_, evaluator());
     }
   }
 

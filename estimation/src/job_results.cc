@@ -31,10 +31,10 @@ std::string TrajectoryPath(const EstimationJob& job, const std::string& output_d
 }  // namespace
 
 std::string JobName(const EstimationJob& job, const EstimationInput& input) {
-  std::string name = std::filesystem::path(job.scene_paths[0]).stem().string();
-  if (job.scene_paths.size() > 1) {
-    name += "_and_" + std::to_string(job.scene_paths.size() - 1) + "_more";
-  }
+  const std::vector<std::string>& paths =
+      job.scene_paths.empty() ? job.target_paths : job.scene_paths;
+  std::string name = std::filesystem::path(paths[0]).stem().string();
+  if (paths.size() > 1) name += "_and_" + std::to_string(paths.size() - 1) + "_more";
   return name + "_" + SettingsString(input.captures[0].scene);
 }
 

@@ -1,6 +1,7 @@
 #include "dpe/estimation/report_io.h"
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -56,6 +57,7 @@ Json TextOrNull(const std::string& text) {
 Json ValidationToJson(const Validation& validation) {
   return {{"frames", validation.num_frames},
           {"rms_position_error_m", JsonNumber(validation.rms)},
+          {"held_out_rms_position_error_m", JsonNumber(validation.held_out_rms)},
           {"note", TextOrNull(validation.note)}};
 }
 
@@ -64,14 +66,26 @@ Json Captures(const EstimationInput& input, const EstimatorSummary& summary,
   Json array = Json::array();
   for (size_t c = 0; c < input.captures.size(); ++c) {
     array.push_back(
-        {{"scene", input.captures[c].scene_path},
+        {{"scene", TextOrNull(input.captures[c].scene_path)},
          {"target", TextOrNull(input.captures[c].target_path)},
          {"frames", summary.captures[c].num_frames},
          {"rms_position_error_m", JsonNumber(summary.captures[c].final_rms)},
          {"sigma_m", JsonNumber(input.captures[c].target.sigma)},
+         {"growth", JsonNumber(summary.captures[c].sensitivity.ok
+                                   ? summary.captures[c].sensitivity.growth
+                                   : std::numeric_limits<double>::quiet_NaN())},
          {"validation", ValidationToJson(validations[c])}});
   }
   return array;
+}
+
+Json SensitivityToJson(const MotionSensitivity& sensitivity) {
+  if (!sensitivity.ok) return {{"ok", false}, {"message", sensitivity.message}};
+  return {{"ok", true},
+          {"growth", JsonNumber(sensitivity.growth)},
+          {"doubling_time_s", JsonNumber(sensitivity.doubling_time)},
+          {"growth_by_frame", JsonNumbers(sensitivity.growth_by_frame)},
+          {"text", sensitivity.text}};
 }
 
 }  // namespace
@@ -82,7 +96,8 @@ std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
   const CaptureInput& first = input.captures[0];
   const bool is_one = input.captures.size() == 1;
   Json report;
-  report["scene"] = is_one ? Json(first.scene_path) : Json(nullptr);
+  // Without a scene file the scene was made of the target.
+  report["scene"] = is_one ? TextOrNull(first.scene_path) : Json(nullptr);
   report["settings"] = SettingsString(first.scene);
   report["target"] = is_one ? TextOrNull(first.target_path) : Json(nullptr);
   report["frames"] = summary.num_frames;
@@ -114,6 +129,7 @@ std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
   report["captures"] = Captures(input, summary, validations);
   report["horizons"] = Horizons(summary);
   report["parameters"] = Parameters(input, summary);
+  report["sensitivity"] = SensitivityToJson(summary.sensitivity);
   report["uncertainty"] = UncertaintyToJson(summary.uncertainty);
   // Text that is not UTF-8 (a file name, say) must not make the report fail.
   return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -177,6 +177,25 @@ TEST_F(SeveralCapturesTest, OneSceneServesAllTargetsWithAStartOfEach) {
   EXPECT_TRUE(OutputNames().count("trajectory_2_0019.obj"));
 }
 
+TEST_F(SeveralCapturesTest, MeshesMakeASceneEach) {
+  const Scene scene = LoadScene(File("a.txt"));
+  for (const std::string name : {"one", "two"}) {
+    WriteTrajectory(File(name + "/*.obj"), TrajectoryFormat::kObj,
+                    Simulator(scene).Simulate(12), scene);
+  }
+  const ProgramResult result = Run(
+      {"--target=" + File("one") + "," + File("two"), "--target_rate=50",
+       "--settings=nG", "--max_iterations=3", "--validate_frames=12", "--frames=10"});
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("Capture 2: scene made of the target, 10 "),
+                                HasSubstr(" m over the 2 held out")));
+  const nlohmann::json capture = Report().at("captures").at(1);
+  EXPECT_TRUE(capture.at("scene").is_null());
+  EXPECT_EQ(capture.at("target"), File("two"));
+  EXPECT_GT(capture.at("validation").at("held_out_rms_position_error_m"), 0.0);
+  EXPECT_GT(capture.at("growth"), 0.0);
+}
+
 TEST_F(SeveralCapturesTest, CommasInTheNameOfAFileDoNotSplitIt) {
   const std::string scene = File("a,1.txt"), target = File("x,y/a,b.csv");
   std::filesystem::create_directory(File("x,y"));

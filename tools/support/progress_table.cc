@@ -81,6 +81,12 @@ void PrintErrors(const EstimatorSummary& summary,
               << " frames (validation): " << Format(all.rms) << " m\n";
   }
   const bool are_several = validations.size() > 1;
+  if (std::isfinite(all.held_out_rms)) {
+    const std::string frames =
+        are_several ? "" : std::to_string(all.num_frames - summary.num_frames) + " ";
+    std::cout << "RMS position error over the " << frames
+              << "frames after them (held out): " << Format(all.held_out_rms) << " m\n";
+  }
   for (size_t c = 0; c < validations.size(); ++c) {
     const std::string capture = "capture " + std::to_string(c + 1);
     if (are_several) {
@@ -89,6 +95,11 @@ void PrintErrors(const EstimatorSummary& summary,
       if (validations[c].num_frames > 0) {
         std::cout << ", " << Format(validations[c].rms) << " m over "
                   << validations[c].num_frames << " (validation)";
+      }
+      if (std::isfinite(validations[c].held_out_rms)) {
+        std::cout << ", " << Format(validations[c].held_out_rms) << " m over the "
+                  << validations[c].num_frames - summary.captures[c].num_frames
+                  << " held out";
       }
       std::cout << "\n";
     }
@@ -144,13 +155,16 @@ void ProgressTable::Tick(double seconds) {
 void PrintTask(const EstimationInput& input) {
   const CaptureInput& first = input.captures[0];
   const JointLayout joint(input.scenes(), /*own_wind=*/true);
+  const auto describe_scene = [](const CaptureInput& capture) {
+    return capture.scene_path.empty() ? "made of the target" : capture.scene_path;
+  };
   const auto describe_target = [](const CaptureInput& capture) {
     return std::to_string(capture.num_frames) + " frames of " +
            (capture.target_path.empty() ? "the scene's own motion"
                                         : capture.target_path);
   };
   if (input.captures.size() == 1) {
-    std::cout << "Scene " << first.scene_path << ", settings "
+    std::cout << "Scene " << describe_scene(first) << ", settings "
               << SettingsString(first.scene) << ": " << joint.layout().size()
               << " parameters to fit to " << describe_target(first) << std::endl;
     return;
@@ -159,7 +173,7 @@ void PrintTask(const EstimationInput& input) {
             << joint.layout().size() << " parameters to fit to "
             << input.captures.size() << " captures\n";
   for (size_t c = 0; c < input.captures.size(); ++c) {
-    std::cout << "Capture " << c + 1 << ": scene " << input.captures[c].scene_path
+    std::cout << "Capture " << c + 1 << ": scene " << describe_scene(input.captures[c])
               << ", " << describe_target(input.captures[c]) << "\n";
   }
   std::cout << std::flush;
@@ -180,6 +194,7 @@ void PrintSummary(const EstimationInput& input, const EstimatorSummary& summary,
     PrintErrors(summary, validations);
     PrintBlocks(input, summary);
     PrintUncertainty(summary.uncertainty);
+    if (summary.sensitivity.ok) std::cout << summary.sensitivity.text << "\n";
     if (input.truth_is_known) {
       const double deviation = ParameterDeviationPercent(summary, input.scenes());
       std::cout << "Mean deviation from the true parameters: " << Format(deviation)

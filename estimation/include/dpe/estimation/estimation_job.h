@@ -11,13 +11,15 @@
 #include "dpe/estimation/estimator.h"
 #include "dpe/estimation/load_target.h"
 #include "dpe/estimation/observations.h"
+#include "dpe/estimation/scene_from_target.h"
 #include "dpe/estimation/trajectory_io.h"
 
 namespace dpe {
 
 struct EstimationJob {
-  // One per capture, or one for all targets.
+  // One per capture, or one for all targets; empty: each target's is made of it.
   std::vector<std::string> scene_paths;
+  SceneFromTargetOptions scene_from_target;
   // What to estimate, as ApplySettings reads it; empty: as the scene says.
   std::string settings;
   // More to estimate: "damping", "drag", "wind", "initial_velocity", of all objects
@@ -43,7 +45,7 @@ struct EstimationJob {
 
 // One capture as a job reads it.
 struct CaptureInput {
-  std::string scene_path;
+  std::string scene_path;   // empty: made of the target
   std::string target_path;  // empty: the scene's own motion
   Scene scene;              // with the settings applied
   Observations target;      // the frames to fit, with noise
@@ -62,9 +64,12 @@ struct EstimationInput {
 };
 
 struct Validation {
-  int num_frames = 0;     // 0: there was none
-  double rms = 0.0;       // m; NaN if the rollout failed
-  PositionErrors errors;  // what it is of
+  int num_frames = 0;  // 0: there was none
+  double rms = 0.0;    // m; NaN if the rollout failed
+  // m, of the frames that were not fitted alone; NaN without any, or if the rollout
+  // failed
+  double held_out_rms = 0.0;
+  PositionErrors errors, held_out_errors;  // what they are of
   Trajectory trajectory;  // of the fitted scene, as many frames as fitted or validated
   std::string note;       // why there is no RMS
 };
@@ -103,8 +108,8 @@ std::vector<std::string> WriteResults(const EstimationJob& job,
                                       const std::vector<Validation>& validations,
                                       const std::string& output_dir);
 
-// "<scene>_<settings>", the scene being its file name without extension, with
-// "_and_2_more" after it where there are others.
+// "<scene>_<settings>", the scene being its file name without extension, or that of the
+// target it was made of, with "_and_2_more" after it where there are others.
 std::string JobName(const EstimationJob& job, const EstimationInput& input);
 
 }  // namespace dpe

@@ -12,6 +12,7 @@
 #include "dpe/engine/scene.h"
 #include "dpe/engine/sensitivity.h"
 #include "dpe/engine/trajectory.h"
+#include "dpe/estimation/motion_sensitivity.h"
 #include "dpe/estimation/observations.h"
 #include "dpe/estimation/robust_loss.h"
 #include "dpe/estimation/uncertainty.h"
@@ -155,6 +156,7 @@ struct CaptureSummary {
   Scene scene;  // the capture's, with the estimated values in it
   int num_frames = 0;
   double final_rms = 0.0;  // m, of this capture alone
+  MotionSensitivity sensitivity;
 };
 
 struct EstimatorSummary {
@@ -182,6 +184,9 @@ struct EstimatorSummary {
   std::vector<CaptureSummary> captures;  // in the order in which they were given
   // Not ok, with a message, where none was computed.
   Uncertainty uncertainty;
+  // Of the fitted motion that depends the most on its start; left out with
+  // UncertaintyMode::kOff and where the fit was stopped.
+  MotionSensitivity sensitivity;
 
   bool usable() const { return termination == Termination::kConverged; }
 };

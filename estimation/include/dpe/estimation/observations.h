@@ -84,15 +84,15 @@ struct PositionErrors {
   double Rms() const;  // m; NaN without any
 };
 
-// Adds those of vertices and of markers over the first `num_frames` frames of the
-// objects that the trajectory holds. Noise makes no difference: every observation
-// counts the same.
+// Adds those of vertices and of markers of the objects that the trajectory holds, over
+// the frames from `first_frame` to the `num_frames`-th. Noise makes no difference:
+// every observation counts the same.
 void AddPositionErrors(const Trajectory& trajectory, const Observations& observations,
-                       int num_frames, PositionErrors* errors);
+                       int num_frames, PositionErrors* errors, int first_frame = 0);
 
 // sqrt(sum |x - x_hat|^2 / number of observed positions) of these, m; NaN without any.
 double RmsPositionError(const Trajectory& trajectory, const Observations& observations,
-                        int num_frames);
+                        int num_frames, int first_frame = 0);
 
 }  // namespace dpe
 

@@ -21,9 +21,10 @@ namespace dpe {
 // elements without influence on the motion. `capture` (1, 2, ...) is whose alone the
 // parameters are, null for those of all.
 //
-// captures [{scene, target, frames, rms_position_error_m, sigma_m, validation}]: what
-// is of one capture. With several, scene, target and sigma_m of the report itself are
-// null, frames are those of the longest, and errors and validation are over all.
+// captures [{scene, target, frames, rms_position_error_m, sigma_m, growth (of its
+// sensitivity), validation}]: what is of one capture. With several, scene, target and
+// sigma_m of the report itself are null, frames are those of the longest, and errors
+// and validation are over all.
 std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
                          const EstimatorSummary& summary,
                          const std::vector<Validation>& validations);
