@@ -110,9 +110,7 @@ void PrintErrors(const EstimatorSummary& summary,
 }
 
 void PrintUncertainty(const Uncertainty& uncertainty) {
-  if (!uncertainty.ok) {
-    std::cout << "Error bars: none, " << uncertainty.message << "\n";
-  }
+  if (!uncertainty.ok) std::cout << "Error bars: none, ";
   for (const std::string& line : UncertaintyLines(uncertainty)) {
     std::cout << line << "\n";
   }
