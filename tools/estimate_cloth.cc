@@ -110,8 +110,8 @@ DEFINE_double(init_perturbation, 0.0,
 DEFINE_string(
     horizon, "auto",
     "full: fit all frames at once; grow: fit the first few, then more and "
-    "more, each from the one before; auto: grow for more than 3 parameters and "
-    "lm, unless inverse dynamics gave the start; else full. shooting: fit windows of "
+    "more, each from the one before; auto: grow for lm, "
+    "unless inverse dynamics gave the start; else full. shooting: fit windows of "
     "10 frames with states of their own, which are made to join.");
 DEFINE_double(sigma, 0.0,
               "Standard deviation (m) of the noise on each observed coordinate, for "

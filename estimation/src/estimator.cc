@@ -165,12 +165,12 @@ class Fit {
   }
 
   // A start from inverse dynamics has seen the whole motion if all captures could be
-  // used for it; a handful of parameters is checked against trial values afterwards.
+  // used for it.
   bool ShouldGrow() {
     if (options_.horizon != Horizon::kAuto) {
       return options_.horizon == Horizon::kGrow;
     }
-    return use_lm_ && !HasFewParameters() &&
+    return use_lm_ &&
            (start_.init != "inverse_dynamics" || !AllAreComplete(fit_.captures()));
   }
 
