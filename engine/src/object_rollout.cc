@@ -11,7 +11,7 @@ void MakeRoomForFactors(const MemoryPlan& plan, const ObjectSystem& system,
                         ObjectTape* tape) {
   if (plan.num_factors > 0) tape->bytes_per_factor = system.factor_bytes();
   for (int s = 0; s < plan.num_factors; ++s) {
-    tape->factors.push_back(tape->pool->Take());
+    tape->factors.push_back(tape->pool->Take(tape->bytes_per_factor));
     tape->factors.back()->Clear();
   }
 }

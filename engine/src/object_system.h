@@ -38,8 +38,8 @@ class ObjectSystem {
   // Where the diagonal block of each node is.
   const std::vector<BlockSlot>& diagonal() const { return diagonal_; }
   StepSolver* solver() { return solver_.get(); }
-  // Bytes of a factorisation that a rollout keeps.
-  size_t factor_bytes() const { return solver_context_->kept_bytes(); }
+  // Bytes of a factorisation that a rollout keeps, at the current parameters.
+  size_t factor_bytes() const { return solver_context_->kept_bytes(IsSymmetric()); }
   // Whether keeping factorisations saves more than the assembly of their matrices.
   bool KeepingFactorsPays() const { return !solver_context_->iterative; }
   // Numbers in the panels of one triangular factor.

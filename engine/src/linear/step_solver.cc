@@ -15,8 +15,8 @@ constexpr int kDirectRows = 10000;
 
 bool PrefersIterativeSolver(int num_rows) { return num_rows > kDirectRows; }
 
-size_t StepSolverContext::kept_bytes() {
-  return direct->structure()->num_values() * sizeof(double);
+size_t StepSolverContext::kept_bytes(bool symmetric) {
+  return direct->structure()->num_values(symmetric) * sizeof(double);
 }
 
 StepSolver::StepSolver(std::shared_ptr<StepSolverContext> context)

@@ -26,8 +26,8 @@ struct StepSolverContext {
         direct(std::make_shared<DirectSolverContext>(pattern)),
         krylov(pattern) {}
 
-  // Bytes of a KeptFactor.
-  size_t kept_bytes();
+  // Bytes of a KeptFactor of a matrix.
+  size_t kept_bytes(bool symmetric);
 
   const BlockPattern& pattern;
   std::shared_ptr<DirectSolverContext> direct;

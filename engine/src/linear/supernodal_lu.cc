@@ -76,13 +76,17 @@ struct DiagonalBlock {
 
 SupernodalLu::SupernodalLu(std::shared_ptr<const SupernodalStructure> structure)
     : structure_(std::move(structure)),
-      lower_(new double[structure_->num_lower_values()]),
-      upper_(new double[structure_->num_upper_values()]) {}
+      lower_(new double[structure_->num_lower_values()]) {}
 
 bool SupernodalLu::Factorize(const double* values, bool symmetric,
                              std::vector<double>* work) {
   symmetric_ = symmetric;
-  work->resize(structure_->workspace_size);
+  if (symmetric) {
+    upper_.reset();
+  } else if (!upper_) {
+    upper_.reset(new double[structure_->num_upper_values()]);
+  }
+  work->resize(structure_->workspace_size + kTriangleColumns * structure_->max_columns);
   for (int s = 0; s < structure_->num_supernodes; ++s) {
     Assemble(s, values);
     for (int c = structure_->first_child[s]; c >= 0; c = structure_->next_sibling[c]) {
@@ -99,7 +103,7 @@ void SupernodalLu::Assemble(int s, const double* values) {
   const int columns = structure_->num_columns(s);
   const long rows = structure_->num_rows(s), below = rows - columns;
   double* const lower = lower_.get() + structure_->value_start[s];
-  double* const upper = upper_.get() + structure_->upper_start[s];
+  double* const upper = UpperPanel(s);
   std::fill_n(lower, rows * columns, 0.0);
   if (!symmetric_) std::fill_n(upper, below * columns, 0.0);
   for (int k = structure_->pair_start[s]; k < structure_->pair_start[s + 1]; ++k) {
@@ -132,7 +136,7 @@ void SupernodalLu::AddToPanels(int child, int s, const double* remainder) {
   const int columns = structure_->num_columns(s);
   const long rows = structure_->num_rows(s), below = rows - columns;
   double* const lower = lower_.get() + structure_->value_start[s];
-  double* const upper = upper_.get() + structure_->upper_start[s] - columns;
+  double* const upper = UpperPanel(s);
   using Run = SupernodalStructure::Run;
   const Run* const begin = structure_->runs.data() + structure_->run_start[child];
   const Run* const end = structure_->runs.data() + structure_->run_start[child + 1];
@@ -142,7 +146,7 @@ void SupernodalLu::AddToPanels(int child, int s, const double* remainder) {
       const double* column = remainder + j * size;
       const double* row = remainder + j;
       double* l = lower + (run->place + k) * rows;
-      double* u = upper + (run->place + k) * below;
+      double* u = symmetric_ ? nullptr : upper + (run->place + k) * below - columns;
       for (const Run* other = symmetric_ ? run : begin; other != end; ++other) {
         const long first = other->first;
         for (int i = 0; i < other->length; ++i) {
@@ -163,19 +167,38 @@ void SupernodalLu::MakeRemainder(int s, double* work) {
   const long rows = structure_->num_rows(s);
   const int below = static_cast<int>(rows) - columns;
   if (below == 0) return;
-  const double* const lower = lower_.get() + structure_->value_start[s] + columns;
-  const double* const upper = upper_.get() + structure_->upper_start[s];
   double* const remainder = work + structure_->remainder_start[s];
-  // Column by column as much of it as there is below the diagonal, if symmetric.
-  const int width = symmetric_ ? kTriangleColumns : below;
-  for (int j = 0; j < below; j += width) {
-    const int i = symmetric_ ? j : 0;
+  if (symmetric_) {
+    MakeSymmetricRemainder(s, work + structure_->workspace_size, remainder);
+  } else {
     BestDenseKernels().subtract_product(
-        /*overwrite=*/true, below - i, std::min(width, below - j), columns, lower + i,
-        rows, upper + j, 1, below, remainder + i + static_cast<long>(j) * below, below);
+        /*overwrite=*/true, below, below, columns,
+        lower_.get() + structure_->value_start[s] + columns, rows, UpperPanel(s), 1,
+        below, remainder, below);
   }
   for (int c = structure_->first_child[s]; c >= 0; c = structure_->next_sibling[c]) {
     AddToRemainder(c, s, work + structure_->remainder_start[c], remainder);
+  }
+}
+
+// The part of -L21 D L21^T on and below the diagonal, some columns at a time; `scaled`
+// receives the rows of L21 D that they need.
+void SupernodalLu::MakeSymmetricRemainder(int s, double* scaled, double* remainder) {
+  const int columns = structure_->num_columns(s);
+  const long rows = structure_->num_rows(s), below = rows - columns;
+  const double* const lower = lower_.get() + structure_->value_start[s];
+  for (long j = 0; j < below; j += kTriangleColumns) {
+    const int count = static_cast<int>(std::min<long>(kTriangleColumns, below - j));
+    const double* const l21 = lower + columns + j;
+    for (int p = 0; p < columns; ++p) {
+      const double pivot = lower[p + p * rows];
+      for (int i = 0; i < count; ++i) {
+        scaled[i + p * kTriangleColumns] = pivot * l21[i + p * rows];
+      }
+    }
+    BestDenseKernels().subtract_product(
+        /*overwrite=*/true, static_cast<int>(below - j), count, columns, l21, rows,
+        scaled, 1, kTriangleColumns, remainder + j + j * below, below);
   }
 }
 
@@ -218,7 +241,7 @@ void SupernodalLu::UpdateColumns(int s, int begin, int middle, int end) {
   const int rows = structure_->num_rows(s), below = rows - columns;
   const int terms = middle - begin, width = end - middle;
   double* const lower = lower_.get() + structure_->value_start[s];
-  double* const upper = upper_.get() + structure_->upper_start[s];
+  double* const upper = UpperPanel(s);
   const auto at = [&](int i, int j) { return lower + i + static_cast<long>(j) * rows; };
   const DenseKernels& kernels = BestDenseKernels();
   kernels.subtract_product(false, rows - middle, width, terms, at(middle, begin), rows,
@@ -235,7 +258,6 @@ bool SupernodalLu::FactorizePanel(int s, int begin, int end) {
   const int columns = structure_->num_columns(s), width = end - begin;
   const long rows = structure_->num_rows(s), below = rows - columns;
   double* const l = lower_.get() + structure_->value_start[s] + begin * rows;
-  double* const u = upper_.get() + structure_->upper_start[s] + begin * below;
   double* const right = l + begin + width * rows;  // U11 beyond the diagonal block
   DiagonalBlock diagonal;
   if (!diagonal.Factorize(l + begin, rows, width, symmetric_)) return false;
@@ -244,15 +266,14 @@ bool SupernodalLu::FactorizePanel(int s, int begin, int end) {
                       diagonal.inverse_pivots, l + end, rows);
   if (!symmetric_) {
     diagonal.SolveRows(width, columns - end, right, rows);
-    kernels.solve_right(static_cast<int>(below), width, diagonal.lower, kOnes, u,
-                        below);
+    kernels.solve_right(static_cast<int>(below), width, diagonal.lower, kOnes,
+                        UpperPanel(s) + begin * below, below);
     return true;
   }
   for (int j = 0; j < width; ++j) {
     const double pivot = diagonal.upper[j + kPanelWidth * j];
     const double* column = l + j * rows;
     for (int i = end; i < columns; ++i) right[j + (i - end) * rows] = pivot * column[i];
-    for (long i = 0; i < below; ++i) u[i + j * below] = pivot * column[columns + i];
   }
   return true;
 }

@@ -14,8 +14,9 @@
 // U12^T lie each by itself. Columns are split in halves: the left half is factorised,
 // the right one updated, then factorised.
 //
-// Of a symmetric matrix U = D L^T, D the pivots: then U is L scaled, and of remainders
-// only the lower triangle is made, which halves the work.
+// Of a symmetric matrix U = D L^T, D the pivots: then U12^T = L21 D is made where it is
+// needed and not kept, and of remainders only the lower triangle is made. That halves
+// the work and the memory.
 #ifndef DPE_ENGINE_LINEAR_SUPERNODAL_LU_H_
 #define DPE_ENGINE_LINEAR_SUPERNODAL_LU_H_
 
@@ -47,15 +48,20 @@ class SupernodalLu {
   void Assemble(int s, const double* values);
   void AddToPanels(int child, int s, const double* remainder);
   void MakeRemainder(int s, double* work);
+  void MakeSymmetricRemainder(int s, double* scaled, double* remainder);
   void AddToRemainder(int child, int s, const double* in, double* remainder);
   bool FactorizeColumns(int s, int begin, int end);
   void UpdateColumns(int s, int begin, int middle, int end);
   bool FactorizePanel(int s, int begin, int end);
+  // The panel of U^T; null if symmetric.
+  double* UpperPanel(int s) const {
+    return symmetric_ ? nullptr : upper_.get() + structure_->upper_start[s];
+  }
 
   std::shared_ptr<const SupernodalStructure> structure_;
   bool symmetric_ = false;
-  // Panels of L, with U11, and of U^T. Every factorisation writes them all, so they are
-  // not filled before.
+  // Panels of L, with U11, and of U^T, which symmetric matrices have none of. Every
+  // factorisation writes them all, so they are not filled before.
   std::unique_ptr<double[]> lower_, upper_;
 };
 
