@@ -170,6 +170,18 @@ bool ObjectSystem::IsSymmetric() const {
                      [](const auto& term) { return term->IsSymmetric(); });
 }
 
+std::vector<std::unique_ptr<KeptFactor>> ObjectSystem::MakeKeptFactors(
+    int count) const {
+  std::vector<std::unique_ptr<KeptFactor>> factors;
+  if (count == 0) return factors;
+  for (const SupernodalPanels& panels : SupernodalPanels::MakeSeveral(
+           *solver_context_->direct->structure(), IsSymmetric(), count)) {
+    factors.push_back(std::make_unique<KeptFactor>());
+    factors.back()->panels = panels;
+  }
+  return factors;
+}
+
 void ObjectSystem::GatherFree(const double* full, double* free) const {
   for (int i : free_vertices_) {
     for (int c = 0; c < 3; ++c) *free++ = full[3 * i + c];

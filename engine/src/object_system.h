@@ -40,6 +40,7 @@ class ObjectSystem {
   StepSolver* solver() { return solver_.get(); }
   // Bytes of a factorisation that a rollout keeps, at the current parameters.
   size_t factor_bytes() const { return solver_context_->kept_bytes(IsSymmetric()); }
+  std::vector<std::unique_ptr<KeptFactor>> MakeKeptFactors(int count) const;
   // Whether keeping factorisations saves more than the assembly of their matrices.
   bool KeepingFactorsPays() const { return !solver_context_->iterative; }
   // Numbers in the panels of one triangular factor.

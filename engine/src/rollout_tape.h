@@ -19,15 +19,20 @@ namespace dpe {
 // again.
 class FactorPool {
  public:
+  // Up to `count`, empty ones.
+  //
   // @param bytes  of each; where that changes, those of another size are given up
-  std::unique_ptr<KeptFactor> Take(std::size_t bytes) {
+  std::vector<std::unique_ptr<KeptFactor>> Take(int count, std::size_t bytes) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (bytes != bytes_) factors_.clear();
     bytes_ = bytes;
-    if (factors_.empty()) return std::make_unique<KeptFactor>();
-    std::unique_ptr<KeptFactor> factor = std::move(factors_.back());
-    factors_.pop_back();
-    return factor;
+    std::vector<std::unique_ptr<KeptFactor>> taken;
+    for (; count > 0 && !factors_.empty(); --count) {
+      factors_.back()->Clear();
+      taken.push_back(std::move(factors_.back()));
+      factors_.pop_back();
+    }
+    return taken;
   }
   void Return(std::unique_ptr<KeptFactor> factor, std::size_t bytes) {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -50,15 +50,6 @@ bool StepSolver::KeepFactorization() {
   return direct_.KeepFactorization(values_);
 }
 
-void StepSolver::StoreFactor(KeptFactor* kept) {
-  if (iterative_ || !factorized_) {
-    kept->Clear();
-  } else {
-    direct_.StoreFactor(kept);
-  }
-  factorized_ = false;
-}
-
 void StepSolver::UseFactor(const KeptFactor* kept, bool symmetric) {
   iterative_ = false;
   symmetric_ = symmetric;

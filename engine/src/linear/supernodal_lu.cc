@@ -75,17 +75,13 @@ struct DiagonalBlock {
 }  // namespace
 
 SupernodalLu::SupernodalLu(std::shared_ptr<const SupernodalStructure> structure)
-    : structure_(std::move(structure)),
-      lower_(new double[structure_->num_lower_values()]) {}
+    : structure_(std::move(structure)) {}
 
 bool SupernodalLu::Factorize(const double* values, bool symmetric,
-                             std::vector<double>* work) {
+                             std::vector<double>* work, SupernodalPanels* copy) {
   symmetric_ = symmetric;
-  if (symmetric) {
-    upper_.reset();
-  } else if (!upper_) {
-    upper_.reset(new double[structure_->num_upper_values()]);
-  }
+  panels_.Allocate(*structure_, symmetric);
+  if (copy != nullptr) copy->Allocate(*structure_, symmetric);
   work->resize(structure_->workspace_size + kTriangleColumns * structure_->max_columns);
   for (int s = 0; s < structure_->num_supernodes; ++s) {
     Assemble(s, values);
@@ -94,15 +90,31 @@ bool SupernodalLu::Factorize(const double* values, bool symmetric,
     }
     if (!FactorizeColumns(s, 0, structure_->num_columns(s))) return false;
     MakeRemainder(s, work->data());
+    if (copy != nullptr) CopyPanels(s, copy);
   }
+  if (copy != nullptr) BestDenseKernels().end_stream();
   return true;
+}
+
+// Copies what of the arrays is ready once supernode `s` is, in whole lines.
+void SupernodalLu::CopyPanels(int s, SupernodalPanels* copy) const {
+  const auto stream = [&](const std::vector<size_t>& start, const double* from,
+                          double* to) {
+    constexpr size_t kLine = SupernodalPanels::kLine;
+    const bool is_last = s + 1 == structure_->num_supernodes;
+    const size_t begin = start[s] / kLine * kLine;
+    const size_t end = (start[s + 1] + (is_last ? kLine - 1 : 0)) / kLine * kLine;
+    BestDenseKernels().stream(end - begin, from + begin, to + begin);
+  };
+  stream(structure_->value_start, panels_.lower(), copy->lower());
+  if (!symmetric_) stream(structure_->upper_start, panels_.upper(), copy->upper());
 }
 
 // The panels of `s` := the matrix's entries.
 void SupernodalLu::Assemble(int s, const double* values) {
   const int columns = structure_->num_columns(s);
   const long rows = structure_->num_rows(s), below = rows - columns;
-  double* const lower = lower_.get() + structure_->value_start[s];
+  double* const lower = LowerPanel(s);
   double* const upper = UpperPanel(s);
   std::fill_n(lower, rows * columns, 0.0);
   if (!symmetric_) std::fill_n(upper, below * columns, 0.0);
@@ -135,7 +147,7 @@ void SupernodalLu::AddToPanels(int child, int s, const double* remainder) {
   const long size = structure_->num_below(child);
   const int columns = structure_->num_columns(s);
   const long rows = structure_->num_rows(s), below = rows - columns;
-  double* const lower = lower_.get() + structure_->value_start[s];
+  double* const lower = LowerPanel(s);
   double* const upper = UpperPanel(s);
   using Run = SupernodalStructure::Run;
   const Run* const begin = structure_->runs.data() + structure_->run_start[child];
@@ -173,7 +185,7 @@ void SupernodalLu::MakeRemainder(int s, double* work) {
   } else {
     BestDenseKernels().subtract_product(
         /*overwrite=*/true, below, below, columns,
-        lower_.get() + structure_->value_start[s] + columns, rows, UpperPanel(s), 1,
+        LowerPanel(s) + columns, rows, UpperPanel(s), 1,
         below, remainder, below);
   }
   for (int c = structure_->first_child[s]; c >= 0; c = structure_->next_sibling[c]) {
@@ -186,7 +198,7 @@ void SupernodalLu::MakeRemainder(int s, double* work) {
 void SupernodalLu::MakeSymmetricRemainder(int s, double* scaled, double* remainder) {
   const int columns = structure_->num_columns(s);
   const long rows = structure_->num_rows(s), below = rows - columns;
-  const double* const lower = lower_.get() + structure_->value_start[s];
+  const double* const lower = LowerPanel(s);
   for (long j = 0; j < below; j += kTriangleColumns) {
     const int count = static_cast<int>(std::min<long>(kTriangleColumns, below - j));
     const double* const l21 = lower + columns + j;
@@ -240,7 +252,7 @@ void SupernodalLu::UpdateColumns(int s, int begin, int middle, int end) {
   const int columns = structure_->num_columns(s);
   const int rows = structure_->num_rows(s), below = rows - columns;
   const int terms = middle - begin, width = end - middle;
-  double* const lower = lower_.get() + structure_->value_start[s];
+  double* const lower = LowerPanel(s);
   double* const upper = UpperPanel(s);
   const auto at = [&](int i, int j) { return lower + i + static_cast<long>(j) * rows; };
   const DenseKernels& kernels = BestDenseKernels();
@@ -257,7 +269,7 @@ void SupernodalLu::UpdateColumns(int s, int begin, int middle, int end) {
 bool SupernodalLu::FactorizePanel(int s, int begin, int end) {
   const int columns = structure_->num_columns(s), width = end - begin;
   const long rows = structure_->num_rows(s), below = rows - columns;
-  double* const l = lower_.get() + structure_->value_start[s] + begin * rows;
+  double* const l = LowerPanel(s) + begin * rows;
   double* const right = l + begin + width * rows;  // U11 beyond the diagonal block
   DiagonalBlock diagonal;
   if (!diagonal.Factorize(l + begin, rows, width, symmetric_)) return false;
@@ -276,19 +288,6 @@ bool SupernodalLu::FactorizePanel(int s, int begin, int end) {
     for (int i = end; i < columns; ++i) right[j + (i - end) * rows] = pivot * column[i];
   }
   return true;
-}
-
-SupernodalFactor SupernodalLu::factor() const {
-  SupernodalFactor factor;
-  factor.num_supernodes = structure_->num_supernodes;
-  factor.first_column = structure_->first_column.data();
-  factor.row_start = structure_->row_start.data();
-  factor.row_indices = structure_->rows.data();
-  factor.value_start = structure_->value_start.data();
-  factor.upper_start = structure_->upper_start.data();
-  factor.lower = lower_.get();
-  factor.upper = upper_.get();
-  return factor;
 }
 
 }  // namespace dpe

@@ -23,6 +23,7 @@
 #include <memory>
 #include <vector>
 
+#include "linear/supernodal_panels.h"
 #include "linear/supernodal_solve.h"
 #include "linear/supernodal_structure.h"
 
@@ -37,14 +38,17 @@ class SupernodalLu {
   //
   // @param symmetric  the matrix is symmetric; its upper triangle is then not read
   // @param work       resized as needed; may be shared by factorisations that take
-  // turns
+  //                   turns
+  // @param copy       if not null, receives the same factors
   // @return           false if a pivot is zero or not finite
-  bool Factorize(const double* values, bool symmetric, std::vector<double>* work);
+  bool Factorize(const double* values, bool symmetric, std::vector<double>* work,
+                 SupernodalPanels* copy = nullptr);
 
   // For SolveSupernodal; valid until the next factorisation.
-  SupernodalFactor factor() const;
+  SupernodalFactor factor() const { return panels_.factor(*structure_); }
 
  private:
+  void CopyPanels(int s, SupernodalPanels* copy) const;
   void Assemble(int s, const double* values);
   void AddToPanels(int child, int s, const double* remainder);
   void MakeRemainder(int s, double* work);
@@ -53,16 +57,17 @@ class SupernodalLu {
   bool FactorizeColumns(int s, int begin, int end);
   void UpdateColumns(int s, int begin, int middle, int end);
   bool FactorizePanel(int s, int begin, int end);
+  double* LowerPanel(int s) const {
+    return panels_.lower() + structure_->value_start[s];
+  }
   // The panel of U^T; null if symmetric.
   double* UpperPanel(int s) const {
-    return symmetric_ ? nullptr : upper_.get() + structure_->upper_start[s];
+    return symmetric_ ? nullptr : panels_.upper() + structure_->upper_start[s];
   }
 
   std::shared_ptr<const SupernodalStructure> structure_;
   bool symmetric_ = false;
-  // Panels of L, with U11, and of U^T, which symmetric matrices have none of. Every
-  // factorisation writes them all, so they are not filled before.
-  std::unique_ptr<double[]> lower_, upper_;
+  SupernodalPanels panels_;
 };
 
 }  // namespace dpe
