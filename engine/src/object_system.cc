@@ -149,13 +149,30 @@ void ObjectSystem::AssembleStepMatrix(const double* x, const double* v, double c
 
 void ObjectSystem::AddAdjoint(const ForceState& state, const double* lambda, double c,
                               VelocityPart part, double* gx, double* gv) const {
-  for (const auto& term : terms_) term->AddAdjoint(state, lambda, c, part, gx, gv);
+  for (const auto& term : terms_) {
+    term->AddAdjoint(state, lambda, c, part, gx, gv, nullptr);
+  }
+}
+
+void ObjectSystem::AddStepAdjoint(const ForceState& state, const double* lambda,
+                                  double c, VelocityPart part, const double* dv,
+                                  double* gx, double* gv, double* gp) const {
+  ParameterSink sink(local_columns_, c, lambda, gp);
+  ParameterSink* const wanted = local_columns_.used().empty() ? nullptr : &sink;
+  for (const auto& term : terms_) {
+    term->AddAdjoint(state, lambda, c, part, gx, gv, wanted);
+  }
+  if (wanted != nullptr) VisitMass(dv, wanted);
 }
 
 void ObjectSystem::VisitStepParameters(const ForceState& state, double h,
                                        const double* dv, ParameterSink* sink) const {
   sink->set_scale(h);
   for (const auto& term : terms_) term->VisitParameters(state, sink);
+  VisitMass(dv, sink);
+}
+
+void ObjectSystem::VisitMass(const double* dv, ParameterSink* sink) const {
   if (!sink->Wants(ParameterKind::kMass)) return;
   sink->set_scale(1.0);
   const double weight = 1.0;

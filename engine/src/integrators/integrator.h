@@ -126,9 +126,6 @@ class Integrator {
   bool SolveAdjointByKept(const ObjectSystem& system, StepSolver* solver);
   // lambda_ := gv + c gx at free vertices, 0 elsewhere.
   void SetMu(const ObjectSystem& system, double c, const StepAdjoint& adjoint);
-  // gp += lambda^T (c dphi/dp - (dM/dp) dv).
-  void AddParameterAdjoint(const ObjectSystem& system, const ForceState& point,
-                           double c, const double* dv, double* gp);
   // Appends c dphi/dp - (dM/dp) dv to out->entries.
   static void ListParameterEntries(const ObjectSystem& system, const ForceState& point,
                                    double c, const double* dv, StageLinearization* out);

@@ -61,9 +61,8 @@ bool LinearlyImplicitEuler::AdjointStep(ObjectSystem* system, StepSolver* solver
     }
   }
   const ForceState point = ExpansionPoint(*system, states);
-  system->AddAdjoint(point, lambda_.data(), states.h, VelocityPart::kMinusPlain,
-                     adjoint.gx, adjoint.gv);
-  AddParameterAdjoint(*system, point, states.h, direction_v_.data(), adjoint.gp);
+  system->AddStepAdjoint(point, lambda_.data(), states.h, VelocityPart::kMinusPlain,
+                         direction_v_.data(), adjoint.gx, adjoint.gv, adjoint.gp);
   return true;
 }
 
