@@ -175,6 +175,7 @@ class BatchTerm final : public ForceTerm {
     const auto* rows = rows_.data() + first;
     WithFlags(flags, [&](auto direction, auto velocity) DPE_INLINE_LAMBDA {
       for (int i = 0; i < kBatch; ++i) {
+        if (state.meanwhile != nullptr) state.meanwhile->Advance();
         for (int m = 0; m < kCoords; ++m) {
           batch->q[m].Set(i, WeightedSum(Law::kPosition[m], state.x, rows[i]));
           if constexpr (!direction) continue;

@@ -15,6 +15,7 @@
 
 #include "forces/parameter_sink.h"
 #include "linear/block_pattern.h"
+#include "linear/prefetch.h"
 
 namespace dpe {
 
@@ -34,6 +35,8 @@ struct ForceState {
   const double* v = nullptr;   // m/s
   const double* dx = nullptr;  // direction; null: both dx and dv are zero
   const double* dv = nullptr;
+  // If not null, what will be needed next and is fetched meanwhile.
+  Prefetch* meanwhile = nullptr;
 };
 
 // Which part of dphi/dv is meant.

@@ -34,6 +34,8 @@ struct StepStates {
   const double* v1 = nullptr;
   const double* xs = nullptr;  // after the first of two stages; else null
   const double* vs = nullptr;
+  // If not null, what the next call will read and is fetched meanwhile.
+  Prefetch* meanwhile = nullptr;
 };
 
 // Where a step writes its result; fixed entries are set by the caller, those of the

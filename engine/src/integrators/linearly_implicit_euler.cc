@@ -60,7 +60,8 @@ bool LinearlyImplicitEuler::AdjointStep(ObjectSystem* system, StepSolver* solver
       adjoint.gv[c] = system->parameters().mass[i] * lambda_[c];
     }
   }
-  const ForceState point = ExpansionPoint(*system, states);
+  ForceState point = ExpansionPoint(*system, states);
+  point.meanwhile = states.meanwhile;
   system->AddStepAdjoint(point, lambda_.data(), states.h, VelocityPart::kMinusPlain,
                          direction_v_.data(), adjoint.gx, adjoint.gv, adjoint.gp);
   return true;

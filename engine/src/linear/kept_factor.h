@@ -10,6 +10,7 @@
 #ifndef DPE_ENGINE_LINEAR_KEPT_FACTOR_H_
 #define DPE_ENGINE_LINEAR_KEPT_FACTOR_H_
 
+#include "linear/prefetch.h"
 #include "linear/supernodal_panels.h"
 
 namespace dpe {
@@ -20,6 +21,9 @@ struct KeptFactor {
     has_factor = false;
     error = -1.0;
   }
+
+  // Brings it into the caches.
+  Prefetch Prefetched() const { return {panels.lower(), panels.size()}; }
 
   bool has_factor = false;
   // |b - A z| / |z| of the first solve with it, or what rounding leaves of that;

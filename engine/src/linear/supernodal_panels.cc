@@ -50,6 +50,7 @@ std::vector<SupernodalPanels> SupernodalPanels::MakeSeveral(
     panels[i].memory_ = memory;
     panels[i].lower_ = memory.get() + i * (lower + upper);
     if (!symmetric) panels[i].upper_ = panels[i].lower_ + lower;
+    panels[i].size_ = lower + upper;
   }
   return panels;
 }

@@ -35,12 +35,16 @@ class SupernodalPanels {
   double* lower() const { return lower_; }
   double* upper() const { return upper_; }
 
+  // Of both arrays, which are one.
+  std::size_t size() const { return size_; }
+
   SupernodalFactor factor(const SupernodalStructure& structure) const;
 
  private:
   std::shared_ptr<double> memory_;
   double* lower_ = nullptr;
   double* upper_ = nullptr;
+  std::size_t size_ = 0;
 };
 
 }  // namespace dpe
