@@ -123,9 +123,8 @@ class BatchTerm final : public ForceTerm {
     AdjointLanes<kCoords> out;
     LoopFlags flags = FlagsOf(state);
     // Without a direction dphi/du is its plain part alone.
-    const bool has_velocity_part =
-        gv != nullptr && flags.velocity &&
-        (flags.direction || part == VelocityPart::kWhole);
+    const bool has_velocity_part = gv != nullptr && flags.velocity &&
+                                   (flags.direction || part == VelocityPart::kWhole);
     const bool has_parameters = sink != nullptr && WantsAny(*sink, &flags);
     for (int first = 0; first < num_elements(); first += kBatch) {
       Gather(state, first, flags, &batch);

@@ -73,7 +73,8 @@ class ForceTerm {
   //
   // @param gv    null if it is not wanted
   // @param sink  if not null, what VisitParameters does as well; its adjoint is lambda
-  //              and its scale is c. Where elements are looked at anyway that costs little
+  //              and its scale is c. Where elements are looked at anyway that costs
+  //              little
   virtual void AddAdjoint(const ForceState& state, const double* lambda, double c,
                           VelocityPart part, double* gx, double* gv,
                           ParameterSink* sink) const = 0;

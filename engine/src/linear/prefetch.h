@@ -28,7 +28,8 @@ class Prefetch {
  private:
   static constexpr std::size_t kMaxSize = std::size_t{1} << 17;  // 1 MiB
   static constexpr int kLineBytes = 64;
-  // At a time: of 2, 4 and 6, that with which a gradient at 12 x 12 vertices is fastest.
+  // At a time: of 2, 4 and 6, that with which a gradient at 12 x 12 vertices is
+  // fastest.
   static constexpr int kLines = 2;
 
   const char* next_ = nullptr;

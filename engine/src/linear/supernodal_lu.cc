@@ -30,8 +30,8 @@ struct DiagonalBlock {
     double a[kPanelWidth][kPanelWidth];
     double largest = 0.0;
     for (int j = 0; j < width; ++j) {
-      for (int i = 0; i < width; ++i) {
-        a[i][j] = i < j && symmetric ? block[j + i * ld] : block[i + j * ld];
+      for (int i = symmetric ? j : 0; i < width; ++i) {
+        a[i][j] = block[i + j * ld];
         largest = std::max(largest, std::abs(a[i][j]));
       }
     }
@@ -41,8 +41,10 @@ struct DiagonalBlock {
       }
       inverse_pivots[k] = 1.0 / a[k][k];
       for (int i = k + 1; i < width; ++i) {
+        if (symmetric) a[k][i] = a[i][k];
         a[i][k] *= inverse_pivots[k];
-        for (int j = k + 1; j < width; ++j) a[i][j] -= a[i][k] * a[k][j];
+        const int end = symmetric ? i + 1 : width;
+        for (int j = k + 1; j < end; ++j) a[i][j] -= a[i][k] * a[k][j];
       }
     }
     for (int j = 0; j < width; ++j) {
@@ -184,9 +186,8 @@ void SupernodalLu::MakeRemainder(int s, double* work) {
     MakeSymmetricRemainder(s, work + structure_->workspace_size, remainder);
   } else {
     BestDenseKernels().subtract_product(
-        /*overwrite=*/true, below, below, columns,
-        LowerPanel(s) + columns, rows, UpperPanel(s), 1,
-        below, remainder, below);
+        /*overwrite=*/true, below, below, columns, LowerPanel(s) + columns, rows,
+        UpperPanel(s), 1, below, remainder, below);
   }
   for (int c = structure_->first_child[s]; c >= 0; c = structure_->next_sibling[c]) {
     AddToRemainder(c, s, work + structure_->remainder_start[c], remainder);

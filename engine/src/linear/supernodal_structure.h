@@ -6,9 +6,10 @@
 // rows[row_start[s]] ... rows[row_start[s + 1] - 1], its own columns first. Its
 // *panels* are dense column-major arrays: that of L, rows x columns at value_start[s],
 // which has its own part of U above the diagonal, and that of U^T, with the rows below
-// alone, at upper_start[s]; factors of symmetric matrices do without the latter. The rows below its own columns are updated by it; the
-// updates are gathered in a square *remainder* and added to the parent: the supernode
-// of the first such row (multifrontal method, Duff & Reid 1983; Liu 1992).
+// alone, at upper_start[s]; factors of symmetric matrices do without the latter. The
+// rows below its own columns are updated by it; the updates are gathered in a square
+// *remainder* and added to the parent: the supernode of the first such row
+// (multifrontal method, Duff & Reid 1983; Liu 1992).
 //
 // The three unknowns of a node are coupled to the same nodes, so they are always in one
 // supernode, and rows come in threes.
