@@ -4,41 +4,71 @@
 #include <sstream>
 #include <utility>
 
-#include "fit_setup.h"
-
 namespace dpe {
 
-FitProblem::FitProblem(const Scene& blank, const Observations& observations,
-                       int num_frames, const EstimatorOptions& options,
-                       StopControl* stop)
-    : num_frames_(num_frames),
-      observations_(CutFrames(observations, 0, num_frames)),
-      best_rms_(std::numeric_limits<double>::quiet_NaN()) {
+FitProblem::FitProblem(std::vector<FitCapture> captures,
+                       const EstimatorOptions& options, StopControl* stop)
+    : captures_(std::move(captures)),
+      num_frames_(MostFrames(captures_)),
+      best_rms_(std::numeric_limits<double>::quiet_NaN()),
+      best_rms_of_(captures_.size(), best_rms_) {
+  std::vector<TrajectorySegment> segments;
+  bool is_anything_observed = false;
+  for (const FitCapture& capture : captures_) {
+    TrajectorySegment segment;
+    segment.scene = capture.blank;
+    segment.costs = MakePositionCosts(capture.blank, capture.observations,
+                                      capture.num_frames, CostOptionsOf(options));
+    is_anything_observed |= !segment.costs.empty();
+    segments.push_back(std::move(segment));
+    noise_is_known_ |= NoiseIsKnown(capture.blank, capture.observations);
+    converged_cost_ +=
+        CostOfRms(capture.blank, capture.observations, options.rms_tolerance);
+  }
+  if (!is_anything_observed) {
+    throw SceneError("no free vertex of an estimated object is observed after frame 0");
+  }
+  TrajectoryEvaluatorOptions evaluator_options = EvaluatorOptionsOf(options, stop);
+  evaluator_options.own_wind = true;
+  evaluator_options.improved = [this] { MeasureErrors(); };
+  problem_ = std::make_unique<TrajectoryProblem>(
+      std::move(segments), std::vector<SegmentLink>(), evaluator_options);
+}
+
+void FitProblem::MeasureErrors() {
+  PositionErrors all;
+  for (size_t c = 0; c < captures_.size(); ++c) {
+    const Trajectory& trajectory = evaluator()->trajectory(static_cast<int>(c));
+    PositionErrors own;
+    AddPositionErrors(trajectory, captures_[c].observations, captures_[c].num_frames,
+                      &own);
+    best_rms_of_[c] = own.Rms();
+    all.sum += own.sum;
+    all.count += own.count;
+  }
+  best_rms_ = all.Rms();
+}
+
+bool FitProblem::IsAtRounding() const {
+  return problem_->evaluator()->best_cost() <= converged_cost_;
+}
+
+PositionCostOptions CostOptionsOf(const EstimatorOptions& options) {
   PositionCostOptions cost_options;
   cost_options.loss = options.loss;
   cost_options.loss_scale = options.loss_scale;
-  TrajectoryCosts costs =
-      MakePositionCosts(blank, observations_, num_frames, cost_options);
-  if (costs.empty()) {
-    throw SceneError("no free vertex of an estimated object is observed after frame 0");
-  }
+  return cost_options;
+}
+
+TrajectoryEvaluatorOptions EvaluatorOptionsOf(const EstimatorOptions& options,
+                                              StopControl* stop) {
   TrajectoryEvaluatorOptions evaluator_options;
   evaluator_options.jacobian = options.jacobian;
   evaluator_options.num_threads = options.num_threads;
   evaluator_options.memory_limit_bytes = options.memory_limit_bytes;
   evaluator_options.timings = options.timings;
   evaluator_options.interrupted = [stop] { return stop->Poll(); };
-  evaluator_options.improved = [this] {
-    best_rms_ = RmsPositionError(evaluator()->trajectory(), observations_, num_frames_);
-  };
-  problem_ =
-      std::make_unique<TrajectoryProblem>(blank, std::move(costs), evaluator_options);
-  noise_is_known_ = NoiseIsKnown(blank, observations_);
-  converged_cost_ = CostOfRms(blank, observations_, options.rms_tolerance);
-}
-
-bool FitProblem::IsAtRounding() const {
-  return problem_->evaluator()->best_cost() <= converged_cost_;
+  return evaluator_options;
 }
 
 double JacobianBytes(const TrajectoryEvaluator& evaluator) {

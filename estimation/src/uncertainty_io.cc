@@ -19,7 +19,7 @@ Json Matrix(const Eigen::MatrixXd& matrix) {
 Json Block(const BlockUncertainty& block) {
   Json entry;
   entry["object"] = block.object >= 0 ? Json(block.object) : Json(nullptr);
-  if (block.segment >= 0) entry["motion"] = block.segment;
+  if (block.segment >= 0) entry["capture"] = block.segment + 1;
   entry["kind"] = block.kind;
   entry["mode"] = std::string(1, block.mode);
   entry["unit"] = block.unit;
@@ -64,6 +64,7 @@ nlohmann::ordered_json UncertaintyToJson(const Uncertainty& uncertainty) {
   json["noise"] = JsonNumber(uncertainty.noise);
   json["degrees_of_freedom"] = uncertainty.degrees_of_freedom;
   json["reduced_chi_square"] = JsonNumber(uncertainty.reduced_chi_square);
+  json["residual_correlation"] = JsonNumber(uncertainty.residual_correlation);
   json["rank"] = uncertainty.rank;
   json["weak_directions"] = uncertainty.num_weak_directions;
   json["parameters"] = Json::array();
@@ -84,6 +85,8 @@ nlohmann::ordered_json UncertaintyToJson(const Uncertainty& uncertainty) {
   for (const UndeterminedDirection& direction : uncertainty.directions) {
     json["directions"].push_back(Direction(uncertainty, direction));
   }
+  json["determined"] =
+      uncertainty.ok ? Json(DeterminedText(uncertainty)) : Json(nullptr);
   json["statements"] = uncertainty.statements;
   return json;
 }

@@ -3,6 +3,7 @@
 #define DPE_ESTIMATION_REPORT_IO_H_
 
 #include <string>
+#include <vector>
 
 #include "dpe/estimation/estimation_job.h"
 
@@ -15,11 +16,18 @@ namespace dpe {
 // wall_time_s, initial_cost and final_cost (m^2), initial_rms_position_error_m,
 // rms_position_error_m, validation {frames, rms_position_error_m, note},
 // parameter_deviation_percent, noise_sigma_m, seed, and
-// parameters [{object, kind, mode, unit, values, true_values, elements, inactive}]:
-// `elements` names the element of each value in mode L, `inactive` the elements without
-// influence on the motion.
+// parameters [{object, capture, kind, mode, unit, values, true_values, elements,
+// inactive}]: `elements` names the element of each value in mode L, `inactive` the
+// elements without influence on the motion. `capture` (1, 2, ...) is whose alone the
+// parameters are, null for those of all.
+//
+// captures [{scene, target, frames, rms_position_error_m, sigma_m, growth (of its
+// sensitivity), validation}]: what is of one capture. With several, scene, target and
+// sigma_m of the report itself are null, frames are those of the longest, and errors
+// and validation are over all.
 std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
-                         const EstimatorSummary& summary, const Validation& validation);
+                         const EstimatorSummary& summary,
+                         const std::vector<Validation>& validations);
 
 }  // namespace dpe
 
