@@ -5,7 +5,7 @@
 #include <chrono>
 #include <iostream>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "dpe/estimation/estimation_job.h"
 #include "support/blas_threads.h"
@@ -14,12 +14,16 @@
 #include "support/interrupt.h"
 #include "support/model_table.h"
 #include "support/progress_table.h"
+#include "support/repeated_flag.h"
 #include "support/run_main.h"
 
 DEFINE_string(
     scene, "",
     "Scene file. Without it the scene is made of the target, which then has to "
-    "be meshes (OBJ files): one cloth under gravity.");
+    "be meshes (OBJ files): one cloth under gravity. Of several captures of one "
+    "cloth each may have its own: as many as targets, in their order, given as "
+    "--target is.");
+DEFINE_validator(scene, &dpe::tools::RememberValue);
 DEFINE_double(density, 0.1, "Mass per area (kg/m^2) of a cloth made of the target.");
 DEFINE_string(pin_vertices, "still",
               "Vertices (0,3,7) that are fixed in a cloth made of the target; still: "
@@ -28,12 +32,18 @@ DEFINE_string(integrator, "tr_bdf2",
               "Integration method of a scene made of the target, by name or number.");
 DEFINE_int32(steps_per_frame, 4,
              "Integration steps in a frame of a scene made of the target.");
-DEFINE_string(target, "",
-              "What was observed: CSV (frame,vertex,x,y,z or time,marker,x,y,z, with "
-              "sigma if known), TRC, a folder or pattern of OBJ files, PC2, or NumPy "
-              ".npy (frames x vertices x 3). Missing rows are missing observations. "
-              "Without it the scene's own parameters make the target, and then serve "
-              "for nothing but the report of the deviation.");
+DEFINE_string(
+    target, "",
+    "What was observed: CSV (frame,vertex,x,y,z or time,marker,x,y,z, with "
+    "sigma if known), TRC, a folder or pattern of OBJ files, PC2, or NumPy "
+    ".npy (frames x vertices x 3). Missing rows are missing observations. "
+    "Without it the scene's own parameters make the target, and then serve "
+    "for nothing but the report of the deviation. Several captures of one cloth "
+    "are fitted together: give the flag once for each, or the paths separated "
+    "by commas. Mass, stiffness, damping and drag are one for all; wind and "
+    "initial velocity are each capture's own. The other --target_ flags are "
+    "for all of them.");
+DEFINE_validator(target, &dpe::tools::RememberValue);
 DEFINE_double(target_scale, 0.0,
               "Metres per unit of the target; 0: what the file says, else 1.");
 DEFINE_string(target_up, "y", "The target's axis that points up: y or z.");
@@ -81,7 +91,8 @@ DEFINE_string(
     "place of an object's letters: the simplest stiffness (G, R, L) that forecasts "
     "frames that are held out as well as any; the mass as the scene says.");
 DEFINE_int32(frames, 0,
-             "Frames to fit, the initial state included; 0: what the scene says.");
+             "Frames to fit, the initial state included; 0: what the scene says. Of "
+             "several captures the shorter ones are fitted whole.");
 DEFINE_int32(
     validate_frames, 0,
     "Frames over which the fitted scene is compared with the target; 0: none.");
@@ -102,8 +113,9 @@ DEFINE_double(init_perturbation, 0.0,
 DEFINE_string(
     horizon, "auto",
     "full: fit all frames at once; grow: fit the first few, then more and "
-    "more, each from the one before; auto: grow for more than 3 parameters and "
-    "lm, unless inverse dynamics gave the start; else full.");
+    "more, each from the one before; auto: grow for lm, "
+    "unless inverse dynamics gave the start; else full. shooting: fit windows of "
+    "10 frames with states of their own, which are made to join.");
 DEFINE_double(sigma, 0.0,
               "Standard deviation (m) of the noise on each observed coordinate, for "
               "observations that name none of their own; 0: --noise_sigma.");
@@ -193,7 +205,8 @@ Horizon HorizonFromFlag() {
   if (FLAGS_horizon == "auto") return Horizon::kAuto;
   if (FLAGS_horizon == "full") return Horizon::kFull;
   if (FLAGS_horizon == "grow") return Horizon::kGrow;
-  Refuse("horizon", FLAGS_horizon, "auto, full or grow");
+  if (FLAGS_horizon == "shooting") return Horizon::kShooting;
+  Refuse("horizon", FLAGS_horizon, "auto, full, grow or shooting");
 }
 
 UncertaintyMode UncertaintyFromFlag() {
@@ -270,10 +283,10 @@ EstimationJob JobFromFlags() {
   RequireAtLeast("threads", FLAGS_threads, 1);
   RequireAtLeast("memory_limit", FLAGS_memory_limit, 0);
   EstimationJob job;
-  job.scene_path = FLAGS_scene;
+  job.scene_paths = RepeatedPaths("scene");
   job.scene_from_target = SceneFromTargetFromFlags();
   job.settings = FLAGS_settings;
-  job.target_path = FLAGS_target;
+  job.target_paths = RepeatedPaths("target");
   job.target = TargetFromFlags();
   job.estimate = Split(FLAGS_estimate, ',');
   job.trajectory_format =
@@ -317,22 +330,6 @@ int ExitCode(Termination termination) {
   return 3;
 }
 
-// Fits; where settings are to be chosen, the scene has the chosen ones afterwards.
-EstimatorSummary Fit(const EstimationJob& job, EstimationInput* input,
-                     ModelSelection* selection) {
-  if (input->auto_objects.empty()) {
-    return Estimate(input->scene, input->target, job.options);
-  }
-  ModelSelectionOptions options;
-  options.objects = input->auto_objects;
-  options.started = PrintModelFit;
-  SelectedModel model = SelectModel(input->scene, input->target, job.options, options);
-  *selection = std::move(model.selection);
-  PrintModelSelection(*selection);
-  ApplySettings(selection->chosen, &input->scene);
-  return std::move(model.summary);
-}
-
 int Main() {
   EstimationJob job = JobFromFlags();
   UseOneBlasThread();
@@ -340,9 +337,9 @@ int Main() {
   for (const std::string& warning : input.warnings) {
     std::cerr << "estimate_cloth: warning: " << warning << "\n";
   }
-  const std::string output_dir = PrepareOutputDir(job, input.scene);
+  const std::string output_dir = PrepareOutputDir(job, input);
   CatchInterrupts();
-  PrintTask(job, input);
+  PrintTask(input);
   ProgressTable table(isatty(STDOUT_FILENO) != 0);
   table.PrintHeader();
   job.options.progress = [&](const IterationReport& r) { table.PrintIteration(r); };
@@ -354,14 +351,16 @@ int Main() {
     return WasInterrupted();
   };
   Timings timings;
-  const bool print_times = FLAGS_print_times || input.scene.print_times;
+  const bool print_times = FLAGS_print_times || input.captures[0].scene.print_times;
   if (print_times) job.options.timings = &timings;
   ModelSelection selection;
-  const EstimatorSummary summary = Fit(job, &input, &selection);
-  const Validation validation = Validate(summary, input, FLAGS_threads);
+  const EstimatorSummary summary =
+      RunEstimation(job.options, PrintModelFit, &input, &selection);
   const bool is_auto = !input.auto_objects.empty();
-  PrintSummary(input, summary, validation,
-               WriteResults(job, input, summary, validation, output_dir,
+  if (is_auto) PrintModelSelection(selection);
+  const std::vector<Validation> validations = Validate(summary, input, FLAGS_threads);
+  PrintSummary(input, summary, validations,
+               WriteResults(job, input, summary, validations, output_dir,
                             is_auto ? &selection : nullptr));
   if (print_times) {
     std::cout << timings.Table(summary.wall_time_s, "start, optimiser");
@@ -380,7 +379,8 @@ int main(int argc, char** argv) {
       "or "
       "input, 2 stopped before converging (the best so far is written; also after "
       "Ctrl-C), 3 numerical failure.",
-      "--scene FILE [--target FILE] [--settings nL] [--frames N] [--validate_frames M] "
+      "--scene FILE [--target FILE]... [--settings nL] [--frames N] [--validate_frames "
+      "M] "
       "[--init METHOD] [--output_dir DIR]",
       __FILE__};
   return dpe::tools::RunMain(argc, argv, program, dpe::tools::Main);

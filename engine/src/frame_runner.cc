@@ -40,14 +40,14 @@ StepOutcome FrameRunner::Run(int frame, int num_steps, const FrameTarget& target
       result.xs = inner->xs(slot, k);
       result.vs = inner->vs(slot, k);
     }
+    StepSolver* const solver = system_->solver();
+    solver->KeepFactorsIn(s < static_cast<int>(kept.size()) ? kept[s].get() : nullptr);
     const StepOutcome outcome = Step(s, k == 0 ? target.x0 : inner->x(slot, k),
                                      k == 0 ? target.v0 : inner->v(slot, k), result);
+    solver->KeepFactorsIn(nullptr);
     if (!outcome.ok()) {
       *failed_step = k;
       return outcome;
-    }
-    if (s < static_cast<int>(kept.size())) {
-      system_->solver()->StoreFactor(kept[s].get());
     }
   }
   return {};

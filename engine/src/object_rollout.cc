@@ -9,10 +9,12 @@ namespace {
 
 void MakeRoomForFactors(const MemoryPlan& plan, const ObjectSystem& system,
                         ObjectTape* tape) {
-  if (plan.num_factors > 0) tape->bytes_per_factor = system.factor_bytes();
-  for (int s = 0; s < plan.num_factors; ++s) {
-    tape->factors.push_back(tape->pool->Take());
-    tape->factors.back()->Clear();
+  if (plan.num_factors == 0) return;
+  tape->bytes_per_factor = system.factor_bytes();
+  tape->factors = tape->pool->Take(plan.num_factors, tape->bytes_per_factor);
+  const int missing = plan.num_factors - static_cast<int>(tape->factors.size());
+  for (auto& factor : system.MakeKeptFactors(missing)) {
+    tape->factors.push_back(std::move(factor));
   }
 }
 

@@ -149,13 +149,30 @@ void ObjectSystem::AssembleStepMatrix(const double* x, const double* v, double c
 
 void ObjectSystem::AddAdjoint(const ForceState& state, const double* lambda, double c,
                               VelocityPart part, double* gx, double* gv) const {
-  for (const auto& term : terms_) term->AddAdjoint(state, lambda, c, part, gx, gv);
+  for (const auto& term : terms_) {
+    term->AddAdjoint(state, lambda, c, part, gx, gv, nullptr);
+  }
+}
+
+void ObjectSystem::AddStepAdjoint(const ForceState& state, const double* lambda,
+                                  double c, VelocityPart part, const double* dv,
+                                  double* gx, double* gv, double* gp) const {
+  ParameterSink sink(local_columns_, c, lambda, gp);
+  ParameterSink* const wanted = local_columns_.used().empty() ? nullptr : &sink;
+  for (const auto& term : terms_) {
+    term->AddAdjoint(state, lambda, c, part, gx, gv, wanted);
+  }
+  if (wanted != nullptr) VisitMass(dv, wanted);
 }
 
 void ObjectSystem::VisitStepParameters(const ForceState& state, double h,
                                        const double* dv, ParameterSink* sink) const {
   sink->set_scale(h);
   for (const auto& term : terms_) term->VisitParameters(state, sink);
+  VisitMass(dv, sink);
+}
+
+void ObjectSystem::VisitMass(const double* dv, ParameterSink* sink) const {
   if (!sink->Wants(ParameterKind::kMass)) return;
   sink->set_scale(1.0);
   const double weight = 1.0;
@@ -168,6 +185,18 @@ void ObjectSystem::VisitStepParameters(const ForceState& state, double h,
 bool ObjectSystem::IsSymmetric() const {
   return std::all_of(terms_.begin(), terms_.end(),
                      [](const auto& term) { return term->IsSymmetric(); });
+}
+
+std::vector<std::unique_ptr<KeptFactor>> ObjectSystem::MakeKeptFactors(
+    int count) const {
+  std::vector<std::unique_ptr<KeptFactor>> factors;
+  if (count == 0) return factors;
+  for (const SupernodalPanels& panels : SupernodalPanels::MakeSeveral(
+           *solver_context_->direct->structure(), IsSymmetric(), count)) {
+    factors.push_back(std::make_unique<KeptFactor>());
+    factors.back()->panels = panels;
+  }
+  return factors;
 }
 
 void ObjectSystem::GatherFree(const double* full, double* free) const {

@@ -38,8 +38,9 @@ class ObjectSystem {
   // Where the diagonal block of each node is.
   const std::vector<BlockSlot>& diagonal() const { return diagonal_; }
   StepSolver* solver() { return solver_.get(); }
-  // Bytes of a factorisation that a rollout keeps.
-  size_t factor_bytes() const { return solver_context_->kept_bytes(); }
+  // Bytes of a factorisation that a rollout keeps, at the current parameters.
+  size_t factor_bytes() const { return solver_context_->kept_bytes(IsSymmetric()); }
+  std::vector<std::unique_ptr<KeptFactor>> MakeKeptFactors(int count) const;
   // Whether keeping factorisations saves more than the assembly of their matrices.
   bool KeepingFactorsPays() const { return !solver_context_->iterative; }
   // Numbers in the panels of one triangular factor.
@@ -76,6 +77,13 @@ class ObjectSystem {
   // gx += c (dphi/dx)^T lambda, gv += c (dphi/dv)^T lambda.
   void AddAdjoint(const ForceState& state, const double* lambda, double c,
                   VelocityPart part, double* gx, double* gv) const;
+  // The same, and the adjoint of the parameters as by VisitStepParameters, in one pass
+  // over the elements: gp (local columns) += lambda^T (c dphi/dp - (dM/dp) dv).
+  //
+  // @param gv  null if it is not wanted
+  void AddStepAdjoint(const ForceState& state, const double* lambda, double c,
+                      VelocityPart part, const double* dv, double* gx, double* gv,
+                      double* gp) const;
   // Reports -dr/dp of the step residual r = M dv - h phi: h dphi/dp - (dM/dp) dv.
   void VisitStepParameters(const ForceState& state, double h, const double* dv,
                            ParameterSink* sink) const;
@@ -89,6 +97,7 @@ class ObjectSystem {
  private:
   void AddForceTerms(const Scene& scene, const ClothObject& object);
   void BuildPattern();
+  void VisitMass(const double* dv, ParameterSink* sink) const;
 
   int object_;
   Timings* timings_;

@@ -19,20 +19,29 @@ namespace dpe {
 // again.
 class FactorPool {
  public:
-  std::unique_ptr<KeptFactor> Take() {
+  // Up to `count`, empty ones.
+  //
+  // @param bytes  of each; where that changes, those of another size are given up
+  std::vector<std::unique_ptr<KeptFactor>> Take(int count, std::size_t bytes) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (factors_.empty()) return std::make_unique<KeptFactor>();
-    std::unique_ptr<KeptFactor> factor = std::move(factors_.back());
-    factors_.pop_back();
-    return factor;
+    if (bytes != bytes_) factors_.clear();
+    bytes_ = bytes;
+    std::vector<std::unique_ptr<KeptFactor>> taken;
+    for (; count > 0 && !factors_.empty(); --count) {
+      factors_.back()->Clear();
+      taken.push_back(std::move(factors_.back()));
+      factors_.pop_back();
+    }
+    return taken;
   }
-  void Return(std::unique_ptr<KeptFactor> factor) {
+  void Return(std::unique_ptr<KeptFactor> factor, std::size_t bytes) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    factors_.push_back(std::move(factor));
+    if (bytes == bytes_) factors_.push_back(std::move(factor));
   }
 
  private:
   std::mutex mutex_;
+  std::size_t bytes_ = 0;
   std::vector<std::unique_ptr<KeptFactor>> factors_;
 };
 
@@ -42,7 +51,7 @@ struct ObjectTape {
   ObjectTape& operator=(ObjectTape&&) = default;
   ~ObjectTape() {
     for (auto& factor : factors) {
-      if (factor) pool->Return(std::move(factor));
+      if (factor) pool->Return(std::move(factor), bytes_per_factor);
     }
   }
 

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <cstdint>
 #include <limits>
-#include <system_error>
+#include <utility>
 
 #include "dpe/engine/parameters.h"
 #include "dpe/engine/scene_io.h"
 #include "dpe/engine/simulator.h"
-#include "dpe/estimation/report_io.h"
-#include "dpe/estimation/trajectory_io.h"
+#include "dpe/estimation/joint_layout.h"
 #include "fit_setup.h"
 
 namespace dpe {
@@ -24,49 +23,29 @@ SimulatorOptions OptionsFor(const EstimatorOptions& options) {
   return simulator_options;
 }
 
-void LoadTarget(const EstimationJob& job, EstimationInput* input) {
-  input->reference =
-      LoadTarget(job.target_path, job.target, &input->scene, &input->warnings);
-  const int in_file = input->reference.num_frames();
-  if (job.num_frames > in_file) {
-    throw SceneError("--frames: " + std::to_string(job.num_frames) +
-                     " asked for; accepted are 2 to " + std::to_string(in_file) +
-                     ", the frames in " + job.target_path);
-  }
-  input->num_frames =
-      job.num_frames > 0 ? job.num_frames : std::min(input->scene.num_frames, in_file);
-  input->num_validation_frames = std::min(job.num_validation_frames, in_file);
+void ReadTarget(const EstimationJob& job, CaptureInput* capture,
+                std::vector<std::string>* warnings) {
+  capture->reference =
+      LoadTarget(capture->target_path, job.target, &capture->scene, warnings);
+  const int in_file = capture->reference.num_frames();
+  capture->num_frames = std::min(
+      job.num_frames > 0 ? job.num_frames : capture->scene.num_frames, in_file);
+  capture->num_validation_frames = std::min(job.num_validation_frames, in_file);
 }
 
-void MakeTarget(const EstimationJob& job, EstimationInput* input) {
-  input->truth_is_known = true;
-  input->num_frames = job.num_frames > 0 ? job.num_frames : input->scene.num_frames;
-  input->num_validation_frames = job.num_validation_frames;
-  Simulator simulator(input->scene, OptionsFor(job.options));
+void MakeTarget(const EstimationJob& job, CaptureInput* capture) {
+  capture->num_frames = job.num_frames > 0 ? job.num_frames : capture->scene.num_frames;
+  capture->num_validation_frames = job.num_validation_frames;
+  Simulator simulator(capture->scene, OptionsFor(job.options));
   const Trajectory truth =
-      simulator.Simulate(std::max(input->num_frames, input->num_validation_frames));
-  if (!truth.status.ok() && truth.status.frame < input->num_frames) {
-    throw SceneError(job.scene_path +
+      simulator.Simulate(std::max(capture->num_frames, capture->num_validation_frames));
+  if (!truth.status.ok() && truth.status.frame < capture->num_frames) {
+    throw SceneError(capture->scene_path +
                      ": the scene's own motion, which is to be the target, cannot be "
                      "simulated: " +
                      truth.status.Message());
   }
-  input->reference = ObserveAll(truth);
-}
-
-std::string TrajectoryPath(const EstimationJob& job, const std::string& output_dir) {
-  switch (job.trajectory_format) {
-    case TrajectoryFormat::kObj:
-      return output_dir + "/trajectory_*.obj";
-    case TrajectoryFormat::kPc2:
-      return output_dir + "/trajectory.pc2";
-    case TrajectoryFormat::kNpy:
-      return output_dir + "/trajectory.npy";
-    case TrajectoryFormat::kAuto:
-    case TrajectoryFormat::kCsv:
-      break;
-  }
-  return output_dir + "/trajectory.csv";
+  capture->reference = ObserveAll(truth);
 }
 
 // Marks a quantity as estimated: of the objects of which something is estimated
@@ -96,119 +75,207 @@ void EstimateMore(const std::string& what, Scene* scene) {
   }
 }
 
-// The file that the scene comes from.
-const std::string& SceneName(const EstimationJob& job) {
-  return job.scene_path.empty() ? job.target_path : job.scene_path;
-}
-
-std::string NameWith(const EstimationJob& job, const std::string& settings) {
-  return std::filesystem::path(SceneName(job)).stem().string() + "_" + settings;
-}
-
-std::string FolderName(const EstimationJob& job, const Scene& scene) {
-  const bool is_auto = job.settings.find("auto") != std::string::npos;
-  return NameWith(job, is_auto ? job.settings : SettingsString(scene));
-}
-
-bool HasResult(const EstimatorSummary& summary) {
-  return std::isfinite(summary.final_cost);
-}
-
-}  // namespace
-
-std::string JobName(const EstimationJob& job, const Scene& scene) {
-  return NameWith(job, SettingsString(scene));
-}
-
-EstimationInput LoadEstimationInput(const EstimationJob& job) {
-  EstimationInput input;
-  input.scene = job.scene_path.empty() ? SceneFromTarget(job.target_path, job.target,
-                                                         job.scene_from_target)
-                                       : LoadScene(job.scene_path, &input.warnings);
+// @param path          of the scene; empty: it is made of `target`
+// @param input         receives warnings, and the objects whose settings are to be
+// chosen
+Scene LoadJobScene(const EstimationJob& job, const std::string& path,
+                   const std::string& target, EstimationInput* input) {
+  Scene scene = path.empty()
+                    ? SceneFromTarget(target, job.target, job.scene_from_target)
+                    : LoadScene(path, &input->warnings);
   if (!job.settings.empty()) {
-    input.auto_objects = ApplyAutoSettings(job.settings, &input.scene);
+    input->auto_objects = ApplyAutoSettings(job.settings, &scene);
   }
-  for (const std::string& what : job.estimate) EstimateMore(what, &input.scene);
-  if (ParameterLayout(input.scene).size() == 0) {
+  for (const std::string& what : job.estimate) EstimateMore(what, &scene);
+  if (ParameterLayout(scene).size() == 0) {
     throw SceneError(
-        SceneName(job) + ": nothing is estimated (settings \"" +
-        SettingsString(input.scene) +
+        (path.empty() ? target : path) + ": nothing is estimated (settings \"" +
+        SettingsString(scene) +
         "\"); accepted in --settings are two letters per object, mass then "
         "stiffness, each n, G, L or R and not all n, or auto");
   }
-  if (job.target_path.empty()) {
-    MakeTarget(job, &input);
-  } else {
-    LoadTarget(job, &input);
+  return scene;
+}
+
+// Captures with their scenes and the names of their targets.
+std::vector<CaptureInput> PairScenesWithTargets(const EstimationJob& job,
+                                                EstimationInput* input) {
+  const size_t num_scenes = job.scene_paths.size();
+  const size_t num_targets = job.target_paths.size();
+  const bool is_one_for_all = num_scenes == 1 && num_targets > 1;
+  const bool are_pairs = num_scenes == 0 || num_targets == 0;
+  if (num_scenes + num_targets == 0 ||
+      !(is_one_for_all || are_pairs || num_targets == num_scenes)) {
+    throw SceneError("--scene and --target: there are " + std::to_string(num_scenes) +
+                     " scenes and " + std::to_string(num_targets) +
+                     " targets; accepted are a target for each scene, one scene for "
+                     "all targets, or one of them only");
   }
-  if (input.num_frames < 2) {
-    throw SceneError("--frames: " + std::to_string(input.num_frames) +
+  std::vector<CaptureInput> captures;
+  for (size_t c = 0; c < std::max(num_scenes, num_targets); ++c) {
+    CaptureInput capture;
+    if (num_targets > 0) capture.target_path = job.target_paths[c];
+    if (num_scenes > 0) capture.scene_path = job.scene_paths[is_one_for_all ? 0 : c];
+    // What is to be said of one scene is to be said once.
+    const bool is_known = is_one_for_all && c > 0;
+    capture.scene =
+        is_known ? captures[0].scene
+                 : LoadJobScene(job, capture.scene_path, capture.target_path, input);
+    captures.push_back(std::move(capture));
+  }
+  return captures;
+}
+
+void RequireFrames(const EstimationJob& job, const EstimationInput& input) {
+  const CaptureInput* longest = nullptr;
+  int most = 0;
+  for (const CaptureInput& capture : input.captures) {
+    if (capture.reference.num_frames() <= most) continue;
+    most = capture.reference.num_frames();
+    longest = &capture;
+  }
+  if (!job.target_paths.empty() && job.num_frames > most) {
+    throw SceneError("--frames: " + std::to_string(job.num_frames) +
+                     " asked for; accepted are 2 to " + std::to_string(most) +
+                     ", the frames in " +
+                     (longest != nullptr ? longest->target_path : job.target_paths[0]));
+  }
+  for (const CaptureInput& capture : input.captures) {
+    if (capture.num_frames >= 2) continue;
+    throw SceneError("--frames: " + std::to_string(capture.num_frames) +
                      "; accepted are 2 or more (frame 0 is the initial state)");
   }
-  input.target = CutFrames(input.reference, 0, input.num_frames);
-  input.target.sigma = job.sigma > 0.0 ? job.sigma : job.noise_sigma;
+}
+
+// "capture 2 (b.txt, b.csv)"
+std::string CaptureName(const CaptureInput& capture, size_t index) {
+  const bool has_both = !capture.scene_path.empty() && !capture.target_path.empty();
+  return "capture " + std::to_string(index + 1) + " (" + capture.scene_path +
+         (has_both ? ", " : "") + capture.target_path + ")";
+}
+
+std::vector<std::string> CaptureNames(const EstimationInput& input) {
+  std::vector<std::string> names;
+  for (const CaptureInput& capture : input.captures) {
+    names.push_back(CaptureName(capture, names.size()));
+  }
+  return names;
+}
+
+void AddTargetNoise(const EstimationJob& job, size_t index, CaptureInput* capture) {
+  // Far from the seeds that a user tries one after the other.
+  constexpr std::uint64_t kNextSeed = 0x9E3779B97F4A7C15;
+  capture->target = CutFrames(capture->reference, 0, capture->num_frames);
+  capture->target.sigma = job.sigma > 0.0 ? job.sigma : job.noise_sigma;
   if (job.noise_sigma > 0.0) {
-    AddNoise(input.scene, job.noise_sigma, job.noise_seed, &input.target);
+    AddNoise(capture->scene, job.noise_sigma, job.noise_seed + index * kNextSeed,
+             &capture->target);
   }
-  return input;
 }
 
-std::string PrepareOutputDir(const EstimationJob& job, const Scene& scene) {
-  const std::string dir =
-      job.output_dir.empty() ? "results/" + FolderName(job, scene) : job.output_dir;
-  std::error_code error;
-  std::filesystem::create_directories(dir, error);
-  if (error || !std::filesystem::is_directory(dir, error)) {
-    throw SceneError("--output_dir: " + dir + " cannot be created" +
-                     (error ? ": " + error.message() : ": it is not a folder"));
-  }
-  return dir;
-}
-
-Validation Validate(const EstimatorSummary& summary, const EstimationInput& input,
-                    int num_threads) {
+Validation ValidateOne(const CaptureSummary& fitted, const CaptureInput& input,
+                       int num_threads) {
   Validation validation;
   validation.rms = validation.held_out_rms = std::numeric_limits<double>::quiet_NaN();
-  if (!HasResult(summary)) return validation;
   validation.num_frames = input.num_validation_frames;
   SimulatorOptions options;
   options.only_estimated_objects = true;
   options.num_threads = num_threads;
-  Simulator simulator(summary.scene, options);
+  Simulator simulator(fitted.scene, options);
   validation.trajectory =
-      simulator.Simulate(std::max(summary.num_frames, validation.num_frames));
+      simulator.Simulate(std::max(fitted.num_frames, validation.num_frames));
   const RolloutStatus& status = validation.trajectory.status;
   if (!status.ok() && status.frame < validation.num_frames) {
     validation.note = "validation failed: " + status.Message();
   } else if (validation.num_frames > 0) {
-    validation.rms =
-        RmsPositionError(validation.trajectory, input.reference, validation.num_frames);
-    validation.held_out_rms =
-        RmsPositionError(validation.trajectory, input.reference, validation.num_frames,
-                         summary.num_frames);
+    AddPositionErrors(validation.trajectory, input.reference, validation.num_frames,
+                      &validation.errors);
+    validation.rms = validation.errors.Rms();
+    AddPositionErrors(validation.trajectory, input.reference, validation.num_frames,
+                      &validation.held_out_errors, fitted.num_frames);
+    validation.held_out_rms = validation.held_out_errors.Rms();
   }
   return validation;
 }
 
-std::vector<std::string> WriteResults(const EstimationJob& job,
-                                      const EstimationInput& input,
-                                      const EstimatorSummary& summary,
-                                      const Validation& validation,
-                                      const std::string& output_dir,
-                                      const ModelSelection* selection) {
-  std::vector<std::string> files;
-  if (HasResult(summary)) {
-    files.push_back(output_dir + "/" + JobName(job, input.scene) + "_optimized.txt");
-    SaveScene(summary.scene, files.back());
-    const std::vector<std::string> frames =
-        WriteTrajectory(TrajectoryPath(job, output_dir), job.trajectory_format,
-                        validation.trajectory, summary.scene);
-    files.insert(files.end(), frames.begin(), frames.end());
+}  // namespace
+
+std::vector<const Scene*> EstimationInput::scenes() const {
+  std::vector<const Scene*> scenes;
+  for (const CaptureInput& capture : captures) scenes.push_back(&capture.scene);
+  return scenes;
+}
+
+EstimationInput LoadEstimationInput(const EstimationJob& job) {
+  EstimationInput input;
+  input.captures = PairScenesWithTargets(job, &input);
+  input.truth_is_known = job.target_paths.empty();
+  for (CaptureInput& capture : input.captures) {
+    if (input.truth_is_known) {
+      MakeTarget(job, &capture);
+    } else {
+      ReadTarget(job, &capture, &input.warnings);
+    }
   }
-  files.push_back(output_dir + "/report.json");
-  WriteFileAtomically(files.back(),
-                      ReportToJson(job, input, summary, validation, selection));
-  return files;
+  RequireFrames(job, input);
+  RequireSameCloths(input.scenes(), CaptureNames(input));
+  for (size_t c = 0; c < input.captures.size(); ++c) {
+    AddTargetNoise(job, c, &input.captures[c]);
+  }
+  return input;
+}
+
+EstimatorSummary RunEstimation(const EstimatorOptions& options,
+                               const std::function<void(const ModelFit&)>& started,
+                               EstimationInput* input, ModelSelection* selection) {
+  std::vector<CapturedMotion> captures;
+  for (const CaptureInput& capture : input->captures) {
+    captures.push_back(
+        {capture.scene, capture.target, CaptureName(capture, captures.size())});
+  }
+  if (input->auto_objects.empty()) return Estimate(captures, options);
+  ModelSelectionOptions selection_options;
+  selection_options.objects = input->auto_objects;
+  selection_options.started = started;
+  SelectedModel model = SelectModel(captures, options, selection_options);
+  for (CaptureInput& capture : input->captures) {
+    ApplySettings(model.selection.chosen, &capture.scene);
+  }
+  *selection = std::move(model.selection);
+  return std::move(model.summary);
+}
+
+std::vector<Validation> Validate(const EstimatorSummary& summary,
+                                 const EstimationInput& input, int num_threads) {
+  std::vector<Validation> validations(input.captures.size());
+  const bool has_result = std::isfinite(summary.final_cost);
+  for (size_t c = 0; c < validations.size(); ++c) {
+    if (has_result) {
+      validations[c] = ValidateOne(summary.captures[c], input.captures[c], num_threads);
+    } else {
+      validations[c].rms = std::numeric_limits<double>::quiet_NaN();
+      validations[c].held_out_rms = validations[c].rms;
+    }
+  }
+  return validations;
+}
+
+Validation Together(const std::vector<Validation>& validations) {
+  Validation all;
+  bool has_all = true;
+  for (const Validation& one : validations) {
+    all.num_frames = std::max(all.num_frames, one.num_frames);
+    all.errors.sum += one.errors.sum;
+    all.errors.count += one.errors.count;
+    all.held_out_errors.sum += one.held_out_errors.sum;
+    all.held_out_errors.count += one.held_out_errors.count;
+    if (all.note.empty()) all.note = one.note;
+    has_all &= std::isfinite(one.rms);
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  all.rms = has_all ? all.errors.Rms() : nan;
+  all.held_out_rms = has_all ? all.held_out_errors.Rms() : nan;
+  return all;
 }
 
 }  // namespace dpe

@@ -30,52 +30,64 @@ Observations HoldOut(Observations observations, int num_fitted) {
 
 }  // namespace
 
-Forecaster::Forecaster(const Scene& scene, const Observations& observations,
-                       int num_fitted, int num_frames, const EstimatorOptions& options,
-                       StopControl* stop)
-    : num_frames_(num_frames),
-      observations_(CutFrames(observations, 0, num_frames)),
-      held_out_(HoldOut(observations_, num_fitted)),
-      num_threads_(options.num_threads),
-      stop_(stop) {
-  PositionCostOptions cost_options;
-  cost_options.loss = options.loss;
-  cost_options.loss_scale = options.loss_scale;
-  costs_ = MakePositionCosts(scene, held_out_, num_frames, cost_options);
-  if (costs_.empty()) {
-    throw SceneError(
-        "settings auto: no free vertex is observed in the frames " +
-        std::to_string(num_fitted) + " to " + std::to_string(num_frames - 1) +
-        ", which are held out to choose by; say more or fewer --frames, or "
-        "name the settings");
-  }
+Forecaster::Forecaster(const EstimatorOptions& options) {
+  cost_options_.loss = options.loss;
+  cost_options_.loss_scale = options.loss_scale;
 }
 
-Forecast Forecaster::Run(const Scene& fitted) const {
+void Forecaster::Add(const Scene& scene, const Observations& observations,
+                     int num_fitted, int num_frames) {
+  Capture capture;
+  capture.num_fitted = num_fitted;
+  capture.num_frames = num_frames;
+  capture.observations = CutFrames(observations, 0, num_frames);
+  capture.held_out = HoldOut(capture.observations, num_fitted);
+  capture.costs = MakePositionCosts(scene, capture.held_out, num_frames, cost_options_);
+  captures_.push_back(std::move(capture));
+}
+
+void Forecaster::RequireHeldOut() const {
+  std::string frames;
+  for (const Capture& capture : captures_) {
+    if (!capture.costs.empty()) return;
+    frames += (frames.empty() ? "" : ", and ") + std::to_string(capture.num_fitted) +
+              " to " + std::to_string(capture.num_frames - 1);
+  }
+  throw SceneError("settings auto: no free vertex is observed in the frames " + frames +
+                   ", which are held out to choose by; say more or fewer --frames, or "
+                   "name the settings");
+}
+
+Forecast Forecaster::Run(const std::vector<Scene>& fitted, int num_threads,
+                         StopControl* stop) const {
   SimulatorOptions options;
   options.only_estimated_objects = true;
-  options.num_threads = num_threads_;
-  options.interrupted = [this] { return stop_->Poll(); };
-  Trajectory trajectory = Simulator(fitted, options).Simulate(num_frames_);
+  options.num_threads = num_threads;
+  options.interrupted = [stop] { return stop->Poll(); };
+  PositionErrors all, held_out, moved;
   Forecast forecast;
-  if (!trajectory.status.ok()) {
+  for (size_t c = 0; c < captures_.size(); ++c) {
+    const Capture& capture = captures_[c];
+    const int frames = capture.num_frames;
+    Trajectory trajectory = Simulator(fitted[c], options).Simulate(frames);
     forecast.message = trajectory.status.Message();
-    return forecast;
+    if (!trajectory.status.ok()) return forecast;
+    AddPositionErrors(trajectory, capture.observations, frames, &all);
+    AddPositionErrors(trajectory, capture.held_out, frames, &held_out);
+    for (const auto& cost : capture.costs) {
+      forecast.residuals.emplace_back(cost->num_residuals());
+      cost->Evaluate(trajectory, forecast.residuals.back().data(), nullptr);
+    }
+    for (Eigen::MatrixXd& positions : trajectory.positions) {
+      if (positions.size() == 0) continue;
+      positions.colwise() = Eigen::VectorXd(positions.col(0));
+    }
+    AddPositionErrors(trajectory, capture.held_out, frames, &moved);
   }
   forecast.ok = true;
-  forecast.rms = RmsPositionError(trajectory, held_out_, num_frames_);
-  forecast.rms_of_all_frames = RmsPositionError(trajectory, observations_, num_frames_);
-  for (const auto& cost : costs_) {
-    forecast.residuals.emplace_back(cost->num_residuals());
-    forecast.ok = forecast.ok &&
-                  cost->Evaluate(trajectory, forecast.residuals.back().data(), nullptr);
-  }
-  for (Eigen::MatrixXd& positions : trajectory.positions) {
-    if (positions.size() == 0) continue;
-    positions.colwise() = Eigen::VectorXd(positions.col(0));
-  }
-  const double moved = RmsPositionError(trajectory, held_out_, num_frames_);
-  forecast.is_exact = forecast.rms <= kExact * moved;
+  forecast.rms = held_out.Rms();
+  forecast.rms_of_all_frames = all.Rms();
+  forecast.is_exact = forecast.rms <= kExact * moved.Rms();
   return forecast;
 }
 

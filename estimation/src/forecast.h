@@ -30,22 +30,33 @@ struct Forecast {
 
 class Forecaster {
  public:
+  explicit Forecaster(const EstimatorOptions& options);
+
+  // Adds a capture.
   // @param scene       whose modes say which objects are estimated
   // @param num_fitted  frames; what was observed later, up to `num_frames`, is held out
-  // @param stop        polled within rollouts; must outlive this
-  // @throws SceneError if nothing was
-  Forecaster(const Scene& scene, const Observations& observations, int num_fitted,
-             int num_frames, const EstimatorOptions& options, StopControl* stop);
+  void Add(const Scene& scene, const Observations& observations, int num_fitted,
+           int num_frames);
 
-  Forecast Run(const Scene& fitted) const;
+  // @throws SceneError if nothing is held out
+  void RequireHeldOut() const;
+
+  // @param fitted  one scene per capture
+  // @param stop    polled within rollouts
+  Forecast Run(const std::vector<Scene>& fitted, int num_threads,
+               StopControl* stop) const;
 
  private:
-  int num_frames_;
-  Observations observations_;
-  Observations held_out_;
-  TrajectoryCosts costs_;
-  int num_threads_;
-  StopControl* stop_;
+  struct Capture {
+    int num_fitted = 0;
+    int num_frames = 0;
+    Observations observations;
+    Observations held_out;
+    TrajectoryCosts costs;
+  };
+
+  PositionCostOptions cost_options_;
+  std::vector<Capture> captures_;
 };
 
 }  // namespace dpe

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <sstream>
 #include <utility>
 
 #include "dpe/engine/parameters.h"
 #include "dpe/estimation/inverse_dynamics.h"
+#include "dpe/estimation/joint_layout.h"
 #include "fit_setup.h"
 #include "forecast.h"
 #include "forecast_weight.h"
@@ -46,12 +46,47 @@ bool HasResult(const EstimatorSummary& summary) {
   return std::isfinite(summary.final_cost);
 }
 
-// The scene with the modes of `modes`.
-Scene WithModesOf(const Scene& modes, Scene scene) {
-  for (size_t i = 0; i < scene.objects.size(); ++i) {
-    scene.objects[i].stiffness_mode = modes.objects[i].stiffness_mode;
+using Captures = std::vector<CapturedMotion>;
+using Scenes = std::vector<Scene>;
+
+Scenes ScenesOf(const Captures& captures) {
+  Scenes scenes;
+  for (const CapturedMotion& capture : captures) scenes.push_back(capture.scene);
+  return scenes;
+}
+
+Scenes FittedScenes(const EstimatorSummary& summary) {
+  Scenes scenes;
+  for (const CaptureSummary& capture : summary.captures)
+    scenes.push_back(capture.scene);
+  return scenes;
+}
+
+void SetMode(int object, ParameterMode mode, Scenes* scenes) {
+  for (Scene& scene : *scenes) scene.objects[object].stiffness_mode = mode;
+}
+
+// The captures in these scenes.
+Captures In(const Scenes& scenes, Captures captures) {
+  for (size_t c = 0; c < captures.size(); ++c) captures[c].scene = scenes[c];
+  return captures;
+}
+
+// The captures with the modes of `modes`.
+Captures WithModesOf(const Scenes& modes, Captures captures) {
+  for (size_t c = 0; c < captures.size(); ++c) {
+    Scene& scene = captures[c].scene;
+    for (size_t i = 0; i < scene.objects.size(); ++i) {
+      scene.objects[i].stiffness_mode = modes[c].objects[i].stiffness_mode;
+    }
   }
-  return scene;
+  return captures;
+}
+
+ParameterLayout LayoutOf(const Scenes& scenes) {
+  std::vector<const Scene*> pointers;
+  for (const Scene& scene : scenes) pointers.push_back(&scene);
+  return JointLayout(pointers, /*own_wind=*/true).layout();
 }
 
 void Check(const EstimatorOptions& options, int num_frames) {
@@ -72,11 +107,11 @@ int NumFittedFrames(int num_frames, double held_out_fraction) {
   return num_frames - std::clamp(held_out, 1, num_frames - 3);
 }
 
-bool HasElements(const Scene& scene) {
-  const std::vector<ParameterBlock> blocks = ParameterLayout(scene).blocks();
-  return std::any_of(blocks.begin(), blocks.end(), [](const ParameterBlock& block) {
-    return block.mode == ParameterMode::kLocal;
-  });
+bool HasElements(const Scenes& scenes) {
+  const ParameterLayout layout = LayoutOf(scenes);
+  return std::any_of(
+      layout.blocks().begin(), layout.blocks().end(),
+      [](const ParameterBlock& block) { return block.mode == ParameterMode::kLocal; });
 }
 
 void StopEarly(EstimatorOptions* options) {
@@ -85,30 +120,40 @@ void StopEarly(EstimatorOptions* options) {
 }
 
 struct FittedModel {
+  Scenes scenes;  // with the fitted values, one per capture
   EstimatorSummary summary;
   Forecast forecast;
 };
 
 class ModelSelector {
  public:
-  ModelSelector(const Scene& scene, const Observations& observations,
-                const EstimatorOptions& options, const ModelSelectionOptions& selection)
-      : scene_(scene),
-        observations_(observations),
-        options_(options),
+  ModelSelector(const Captures& captures, const EstimatorOptions& options,
+                const ModelSelectionOptions& selection)
+      : options_(options),
         selection_(selection),
         stop_(options.max_seconds, options.interrupted),
-        num_frames_(NumFramesToFit(scene, observations, options.num_frames)),
-        num_fitted_(NumFittedFrames(num_frames_, selection.held_out_fraction)) {
-    Check(options, num_frames_);
-    forecaster_ = std::make_unique<Forecaster>(scene, observations_, num_fitted_,
-                                               num_frames_, options_, &stop_);
+        forecaster_(options) {
+    for (const FitCapture& whole : PrepareAll(captures)) {
+      Check(options, whole.num_frames);
+      CapturedMotion capture = captures[whole_.size()];
+      capture.observations = whole.observations;
+      whole_.push_back(capture);
+      const int fitted = NumFittedFrames(whole.num_frames, selection.held_out_fraction);
+      capture.observations = CutFrames(whole.observations, 0, fitted);
+      fitted_.push_back(std::move(capture));
+      forecaster_.Add(whole_.back().scene, whole.observations, fitted,
+                      whole.num_frames);
+      num_frames_ = std::max(num_frames_, whole.num_frames);
+      num_fitted_ = std::max(num_fitted_, fitted);
+    }
+    forecaster_.RequireHeldOut();
     result_.selection.num_frames = num_frames_;
     result_.selection.num_fitted_frames = num_fitted_;
     result_.selection.criterion =
         "forecast of the last " + std::to_string(num_frames_ - num_fitted_) +
-        " frames: a richer model is kept if its weight in the best mixture of both "
-        "forecasts is above 1/2 by two standard deviations";
+        " frames" + (whole_.size() > 1 ? " (a third of each capture)" : "") +
+        ": a richer model is kept if its weight in the best mixture of both forecasts "
+        "is above 1/2 by two standard deviations";
   }
 
   SelectedModel Run() {
@@ -120,7 +165,7 @@ class ModelSelector {
       for (const int object : selection_.objects) ChooseMode(object);
       FitChosen();
     }
-    result_.selection.chosen = SettingsString(best_.summary.scene);
+    result_.selection.chosen = Settings(best_.scenes);
     result_.summary.wall_time_s = stop_.Seconds();
     return result_;
   }
@@ -128,20 +173,35 @@ class ModelSelector {
  private:
   std::vector<ModelCandidate>& candidates() { return result_.selection.candidates; }
 
-  static ModelCandidate Row(const Scene& scene) {
+  std::vector<FitCapture> PrepareAll(const Captures& captures) const {
+    std::vector<CaptureView> views;
+    for (const CapturedMotion& capture : captures) {
+      views.push_back({&capture.scene, &capture.observations,
+                       capture.name.empty()
+                           ? "capture " + std::to_string(views.size() + 1)
+                           : capture.name});
+    }
+    return PrepareCaptures(views, options_.num_frames);
+  }
+
+  static std::string Settings(const Scenes& scenes) {
+    return SettingsString(scenes[0]);
+  }
+
+  static ModelCandidate Row(const Scenes& scenes) {
     ModelCandidate row;
-    row.settings = SettingsString(scene);
-    row.num_parameters = ParameterLayout(scene).size();
+    row.settings = Settings(scenes);
+    row.num_parameters = LayoutOf(scenes).size();
     return row;
   }
 
   void FitFirst() {
-    best_.summary.scene = scene_;
+    Scenes scenes = ScenesOf(whole_);
     for (const int object : selection_.objects) {
-      best_.summary.scene.objects[object].stiffness_mode = ParameterMode::kGlobal;
+      SetMode(object, ParameterMode::kGlobal, &scenes);
     }
-    ModelCandidate row = Row(best_.summary.scene);
-    best_ = FitCandidate(best_.summary.scene, nullptr, &row);
+    ModelCandidate row = Row(scenes);
+    best_ = FitCandidate(scenes, nullptr, &row);
     row.kept = true;
     row.reason = "the simplest";
     candidates().push_back(row);
@@ -149,22 +209,22 @@ class ModelSelector {
   }
 
   void ChooseMode(int object) {
-    int num_parameters = ParameterLayout(best_.summary.scene).size();
+    int num_parameters = LayoutOf(best_.scenes).size();
     for (const ParameterMode mode : {ParameterMode::kGroup, ParameterMode::kLocal}) {
-      Scene scene = best_.summary.scene;
-      scene.objects[object].stiffness_mode = mode;
-      ModelCandidate row = Row(scene);
+      Scenes scenes = best_.scenes;
+      SetMode(object, mode, &scenes);
+      ModelCandidate row = Row(scenes);
       if (row.num_parameters <= num_parameters) {
         row.reason = mode == ParameterMode::kGroup
                          ? "not tried: there is one group of springs"
                          : "not tried: every spring is a group of its own";
       } else if (best_.forecast.is_exact) {
-        row.reason = "not tried: " + SettingsString(best_.summary.scene) +
-                     " leaves nothing to explain";
+        row.reason =
+            "not tried: " + Settings(best_.scenes) + " leaves nothing to explain";
       } else if (stop_.Poll()) {
         row.reason = "not tried: " + WhyStopped();
       } else {
-        Try(scene, &row);
+        Try(scenes, &row);
       }
       num_parameters = std::max(num_parameters, row.num_parameters);
       candidates().push_back(row);
@@ -172,24 +232,22 @@ class ModelSelector {
     }
   }
 
-  void Try(const Scene& scene, ModelCandidate* row) {
-    row->compared_with = SettingsString(best_.summary.scene);
-    if (IsFutile(scene, *row)) {
+  void Try(const Scenes& scenes, ModelCandidate* row) {
+    row->compared_with = Settings(best_.scenes);
+    if (IsFutile(scenes, *row)) {
       row->reason = "not tried: what " + row->compared_with +
                     " leaves unexplained has no more to do with these parameters than "
                     "noise has (score test)";
       return;
     }
-    FittedModel model = FitCandidate(scene, &best_, row);
+    FittedModel model = FitCandidate(scenes, &best_, row);
     Judge(model, row);
     if (row->kept) best_ = std::move(model);
   }
 
-  bool IsFutile(const Scene& scene, const ModelCandidate& row) {
+  bool IsFutile(const Scenes& scenes, const ModelCandidate& row) {
     if (row.num_parameters <= kFewParameters) return false;
-    EstimatorOptions options = options_;
-    options.num_frames = num_fitted_;
-    return TestScore(scene, observations_, options, &stop_).NothingToGain();
+    return TestScore(In(scenes, fitted_), options_, &stop_).NothingToGain();
   }
 
   void Judge(const FittedModel& model, ModelCandidate* row) const {
@@ -247,39 +305,42 @@ class ModelSelector {
     }
   }
 
-  FittedModel FitCandidate(const Scene& scene, const FittedModel* simpler,
+  FittedModel FitCandidate(const Scenes& scenes, const FittedModel* simpler,
                            ModelCandidate* row) {
     EstimatorOptions options = OptionsNow();
-    options.num_frames = num_fitted_;
     options.max_seconds *= kShareOfTime;
     options.uncertainty = UncertaintyMode::kOff;
-    if (HasElements(scene)) StopEarly(&options);
+    if (HasElements(scenes)) StopEarly(&options);
     Announce(*row, num_fitted_, false);
     const double before = stop_.Seconds();
     FittedModel model;
-    model.summary = FitFrom(
-        scene, simpler == nullptr ? kNoRms : simpler->summary.final_rms, options);
+    model.summary =
+        FitFrom(scenes, fitted_,
+                simpler == nullptr ? kNoRms : simpler->summary.final_rms, options);
+    model.scenes = HasResult(model.summary) ? FittedScenes(model.summary) : scenes;
     row->was_fitted = true;
     row->termination = model.summary.termination;
     row->iterations = model.summary.iterations;
     row->fit_rms = model.summary.final_rms;
     if (HasResult(model.summary)) {
-      model.forecast = forecaster_->Run(model.summary.scene);
+      model.forecast = forecaster_.Run(model.scenes, options_.num_threads, &stop_);
       if (model.forecast.ok) row->held_out_rms = model.forecast.rms;
     }
     row->seconds = stop_.Seconds() - before;
     return model;
   }
 
-  // Fits from the values in `scene`, which have this RMS (m, or kNoRms),
-  // or from where the options say, if that is closer to the target.
-  EstimatorSummary FitFrom(const Scene& scene, double rms,
-                           const EstimatorOptions& options) {
-    const Scene blank = WithModesOf(scene, scene_);
-    if (rms == kNoRms) return Estimate(blank, observations_, options);
+  // Fits `captures` from the values in `scenes`, which have this RMS (m, or kNoRms), or
+  // from where the options say, if that is closer to the target.
+  static EstimatorSummary FitFrom(const Scenes& scenes, const Captures& captures,
+                                  double rms, const EstimatorOptions& options) {
+    const Captures own = WithModesOf(scenes, captures);
+    if (rms == kNoRms) return Estimate(own, options);
     const bool has_own_start =
         options.init != InitMethod::kAuto ||
-        InverseDynamicsApplies(blank, CutFrames(observations_, 0, options.num_frames));
+        std::any_of(own.begin(), own.end(), [](const CapturedMotion& capture) {
+          return InverseDynamicsApplies(capture.scene, capture.observations);
+        });
     if (has_own_start) {
       EstimatorOptions look = options;
       look.max_iterations = 0;
@@ -287,14 +348,12 @@ class ModelSelector {
       look.uncertainty = UncertaintyMode::kOff;
       look.max_checked_parameters = 0;
       look.progress = nullptr;
-      if (Estimate(blank, observations_, look).initial_rms < rms) {
-        return Estimate(blank, observations_, options);
-      }
+      if (Estimate(own, look).initial_rms < rms) return Estimate(own, options);
     }
     EstimatorOptions warm = options;
     warm.init = InitMethod::kScene;
     warm.init_perturbation = 0.0;
-    return Estimate(scene, observations_, warm);
+    return Estimate(In(scenes, captures), warm);
   }
 
   void FitChosen() {
@@ -310,15 +369,13 @@ class ModelSelector {
       return;
     }
     EstimatorOptions options = OptionsNow();
-    options.num_frames = num_frames_;
     // The candidate's fit was the horizon before this one.
     if (options.horizon == Horizon::kAuto) options.horizon = Horizon::kFull;
-    const bool stops_early =
-        HasElements(best_.summary.scene) && !best_.forecast.is_exact;
+    const bool stops_early = HasElements(best_.scenes) && !best_.forecast.is_exact;
     if (stops_early) StopEarly(&options);
-    Announce(Row(best_.summary.scene), num_frames_, true);
+    Announce(Row(best_.scenes), num_frames_, true);
     result_.summary =
-        FitFrom(best_.summary.scene,
+        FitFrom(best_.scenes, whole_,
                 best_.forecast.ok ? best_.forecast.rms_of_all_frames : kNoRms, options);
     if (stops_early && result_.summary.usable()) {
       result_.summary.notes.push_back(
@@ -337,6 +394,7 @@ class ModelSelector {
   // With what is left of the time, and reports in the time of the whole.
   EstimatorOptions OptionsNow() const {
     EstimatorOptions options = options_;
+    options.num_frames = 0;  // captures are cut
     const double before = stop_.Seconds();
     options.max_seconds = std::max(0.0, options.max_seconds - before);
     if (options_.progress) {
@@ -348,24 +406,29 @@ class ModelSelector {
     return options;
   }
 
-  const Scene& scene_;
-  const Observations& observations_;
   const EstimatorOptions& options_;
   const ModelSelectionOptions& selection_;
   StopControl stop_;
-  const int num_frames_;
-  const int num_fitted_;
-  std::unique_ptr<Forecaster> forecaster_;
+  Captures whole_, fitted_;  // all frames, and those that candidates are fitted to
+  int num_frames_ = 0;       // of the longest
+  int num_fitted_ = 0;
+  Forecaster forecaster_;
   FittedModel best_;
   SelectedModel result_;
 };
 
 }  // namespace
 
+SelectedModel SelectModel(const std::vector<CapturedMotion>& captures,
+                          const EstimatorOptions& options,
+                          const ModelSelectionOptions& selection) {
+  return ModelSelector(captures, options, selection).Run();
+}
+
 SelectedModel SelectModel(const Scene& scene, const Observations& observations,
                           const EstimatorOptions& options,
                           const ModelSelectionOptions& selection) {
-  return ModelSelector(scene, observations, options, selection).Run();
+  return SelectModel({{scene, observations, "the capture"}}, options, selection);
 }
 
 }  // namespace dpe

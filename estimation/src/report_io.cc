@@ -1,10 +1,10 @@
 #include "dpe/estimation/report_io.h"
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "dpe/engine/parameters.h"
 #include "json_numbers_io.h"
 #include "model_selection_io.h"
 #include "uncertainty_io.h"
@@ -15,23 +15,24 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json Parameters(const EstimationInput& input, const EstimatorSummary& summary) {
-  const ParameterLayout layout(input.scene);
-  const Eigen::VectorXd truth = layout.Extract(input.scene);
+  const TrueParameters truth = TrueParametersOf(input.scenes());
   Json array = Json::array();
+  Eigen::Index offset = 0;
   for (size_t b = 0; b < summary.blocks.size(); ++b) {
     const EstimatedBlock& block = summary.blocks[b];
-    const ParameterBlock& place = layout.blocks()[b];
     Json entry;
     // The wind belongs to the scene, not to an object.
     entry["object"] = block.object >= 0 ? Json(block.object) : Json(nullptr);
+    entry["capture"] = block.capture >= 0 ? Json(block.capture + 1) : Json(nullptr);
     entry["kind"] = block.kind;
     entry["mode"] = std::string(1, block.mode);
     entry["unit"] = block.unit;
     entry["values"] = JsonNumbers(block.values);
-    const bool known =
-        input.truth_is_known && layout.Represents(input.scene, static_cast<int>(b));
+    const bool known = input.truth_is_known && truth.is_known[b];
+    const Eigen::Index size = block.values.size();
     entry["true_values"] =
-        known ? JsonNumbers(truth.segment(place.offset, place.size)) : Json(nullptr);
+        known ? JsonNumbers(truth.values.segment(offset, size)) : Json(nullptr);
+    offset += size;
     if (!block.elements.empty()) entry["elements"] = block.elements;
     entry["inactive"] = block.inactive;
     array.push_back(std::move(entry));
@@ -50,6 +51,35 @@ Json Horizons(const EstimatorSummary& summary) {
   return array;
 }
 
+Json TextOrNull(const std::string& text) {
+  return text.empty() ? Json(nullptr) : Json(text);
+}
+
+Json ValidationToJson(const Validation& validation) {
+  return {{"frames", validation.num_frames},
+          {"rms_position_error_m", JsonNumber(validation.rms)},
+          {"held_out_rms_position_error_m", JsonNumber(validation.held_out_rms)},
+          {"note", TextOrNull(validation.note)}};
+}
+
+Json Captures(const EstimationInput& input, const EstimatorSummary& summary,
+              const std::vector<Validation>& validations) {
+  Json array = Json::array();
+  for (size_t c = 0; c < input.captures.size(); ++c) {
+    array.push_back(
+        {{"scene", TextOrNull(input.captures[c].scene_path)},
+         {"target", TextOrNull(input.captures[c].target_path)},
+         {"frames", summary.captures[c].num_frames},
+         {"rms_position_error_m", JsonNumber(summary.captures[c].final_rms)},
+         {"sigma_m", JsonNumber(input.captures[c].target.sigma)},
+         {"growth", JsonNumber(summary.captures[c].sensitivity.ok
+                                   ? summary.captures[c].sensitivity.growth
+                                   : std::numeric_limits<double>::quiet_NaN())},
+         {"validation", ValidationToJson(validations[c])}});
+  }
+  return array;
+}
+
 Json SensitivityToJson(const MotionSensitivity& sensitivity) {
   if (!sensitivity.ok) return {{"ok", false}, {"message", sensitivity.message}};
   return {{"ok", true},
@@ -62,13 +92,16 @@ Json SensitivityToJson(const MotionSensitivity& sensitivity) {
 }  // namespace
 
 std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
-                         const EstimatorSummary& summary, const Validation& validation,
+                         const EstimatorSummary& summary,
+                         const std::vector<Validation>& validations,
                          const ModelSelection* selection) {
+  const CaptureInput& first = input.captures[0];
+  const bool is_one = input.captures.size() == 1;
   Json report;
   // Without a scene file the scene was made of the target.
-  report["scene"] = job.scene_path.empty() ? Json(nullptr) : Json(job.scene_path);
-  report["settings"] = SettingsString(input.scene);
-  report["target"] = job.target_path.empty() ? Json(nullptr) : Json(job.target_path);
+  report["scene"] = is_one ? TextOrNull(first.scene_path) : Json(nullptr);
+  report["settings"] = SettingsString(first.scene);
+  report["target"] = is_one ? TextOrNull(first.target_path) : Json(nullptr);
   report["frames"] = summary.num_frames;
   report["solver"] = summary.solver;
   report["solver_reason"] = summary.solver_reason;
@@ -86,19 +119,16 @@ std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
   report["final_cost"] = JsonNumber(summary.final_cost);
   report["initial_rms_position_error_m"] = JsonNumber(summary.initial_rms);
   report["rms_position_error_m"] = JsonNumber(summary.final_rms);
-  report["validation"] = {
-      {"frames", validation.num_frames},
-      {"rms_position_error_m", JsonNumber(validation.rms)},
-      {"held_out_rms_position_error_m", JsonNumber(validation.held_out_rms)},
-      {"note", validation.note.empty() ? Json(nullptr) : Json(validation.note)}};
+  report["validation"] = ValidationToJson(Together(validations));
   report["parameter_deviation_percent"] =
       input.truth_is_known && std::isfinite(summary.final_cost)
-          ? JsonNumber(ParameterDeviationPercent(summary, input.scene))
+          ? JsonNumber(ParameterDeviationPercent(summary, input.scenes()))
           : Json(nullptr);
   report["noise_sigma_m"] = JsonNumber(job.noise_sigma);
   report["seed"] = job.options.seed;
-  report["sigma_m"] = JsonNumber(input.target.sigma);
+  report["sigma_m"] = is_one ? JsonNumber(first.target.sigma) : Json(nullptr);
   report["loss"] = LossTypeName(job.options.loss);
+  report["captures"] = Captures(input, summary, validations);
   report["horizons"] = Horizons(summary);
   report["parameters"] = Parameters(input, summary);
   report["sensitivity"] = SensitivityToJson(summary.sensitivity);

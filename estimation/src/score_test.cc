@@ -13,10 +13,9 @@ namespace {
 
 constexpr double kDeviations = 2.0;
 
-// S and V^T of the evaluator's Jacobian, by way of its triangular factor.
-bool SingularValues(const TrajectoryEvaluator& evaluator, int num_threads,
-                    Eigen::VectorXd* s, Eigen::MatrixXd* vt) {
-  const RowMajorMatrix& jacobian = evaluator.jacobian();
+// S and V^T of a Jacobian, by way of its triangular factor.
+bool SingularValues(const RowMajorMatrix& jacobian, int num_threads, Eigen::VectorXd* s,
+                    Eigen::MatrixXd* vt) {
   const std::vector<int> chunk_rows = ChunkRows(static_cast<int>(jacobian.rows()));
   Eigen::MatrixXd r;
   return TallQr(
@@ -33,11 +32,12 @@ ScoreTest Test(const TrajectoryEvaluator& evaluator, int num_threads) {
   ScoreTest test;
   Eigen::VectorXd s;
   Eigen::MatrixXd vt;
-  if (!SingularValues(evaluator, num_threads, &s, &vt)) return test;
+  const RowMajorMatrix jacobian = evaluator.DenseJacobian();
+  if (!SingularValues(jacobian, num_threads, &s, &vt)) return test;
   const Eigen::VectorXd& r = evaluator.residuals();
   const double m = static_cast<double>(r.size());
   const double noise = std::sqrt(r.squaredNorm() / m);
-  const Eigen::VectorXd score = vt * (evaluator.jacobian().transpose() * r);
+  const Eigen::VectorXd score = vt * (jacobian.transpose() * r);
   double explained = 0.0;
   for (; test.directions < s.size() && s[test.directions] > noise; ++test.directions) {
     explained += std::pow(score[test.directions] / s[test.directions], 2);
@@ -54,13 +54,18 @@ ScoreTest Test(const TrajectoryEvaluator& evaluator, int num_threads) {
 
 bool ScoreTest::NothingToGain() const { return ok && excess < kDeviations; }
 
-ScoreTest TestScore(const Scene& scene, const Observations& observations,
+ScoreTest TestScore(const std::vector<CapturedMotion>& captures,
                     const EstimatorOptions& options, StopControl* stop) {
-  FitProblem fit(PrepareCaptures({{&scene, &observations, ""}}, options.num_frames),
-                 options, stop);
+  std::vector<CaptureView> views;
+  std::vector<const Scene*> scenes;
+  for (const CapturedMotion& capture : captures) {
+    views.push_back({&capture.scene, &capture.observations, capture.name});
+    scenes.push_back(&capture.scene);
+  }
+  FitProblem fit(PrepareCaptures(views, 0), options, stop);
   TrajectoryEvaluator* evaluator = fit.evaluator();
   const Eigen::VectorXd coordinates =
-      evaluator->map().ToCoordinates(evaluator->layout().Extract(scene));
+      evaluator->map().ToCoordinates(evaluator->joint_layout().Extract(scenes));
   if (JacobianBytes(*evaluator) > options.max_lm_jacobian_bytes ||
       !evaluator->Evaluate(coordinates) || !evaluator->EvaluateJacobian()) {
     return ScoreTest();

@@ -23,9 +23,9 @@
 #ifndef DPE_ESTIMATION_SCORE_TEST_H_
 #define DPE_ESTIMATION_SCORE_TEST_H_
 
-#include "dpe/engine/scene.h"
+#include <vector>
+
 #include "dpe/estimation/estimator.h"
-#include "dpe/estimation/observations.h"
 #include "stop_control.h"
 
 namespace dpe {
@@ -39,9 +39,10 @@ struct ScoreTest {
   bool NothingToGain() const;
 };
 
-// @param scene    of the richer model's modes, with the simpler fit's values
-// @param options  of the fit; num_frames are used
-ScoreTest TestScore(const Scene& scene, const Observations& observations,
+// @param captures  in scenes of the richer model's modes, with the simpler fit's
+// values;
+//                  all frames are used
+ScoreTest TestScore(const std::vector<CapturedMotion>& captures,
                     const EstimatorOptions& options, StopControl* stop);
 
 }  // namespace dpe

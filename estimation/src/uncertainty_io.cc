@@ -19,7 +19,7 @@ Json Matrix(const Eigen::MatrixXd& matrix) {
 Json Block(const BlockUncertainty& block) {
   Json entry;
   entry["object"] = block.object >= 0 ? Json(block.object) : Json(nullptr);
-  if (block.segment >= 0) entry["motion"] = block.segment;
+  if (block.segment >= 0) entry["capture"] = block.segment + 1;
   entry["kind"] = block.kind;
   entry["mode"] = std::string(1, block.mode);
   entry["unit"] = block.unit;

@@ -12,7 +12,7 @@ namespace dpe {
 // determined.
 //
 // ok, message, noise_known, noise, degrees_of_freedom, reduced_chi_square, rank,
-// weak_directions (a number), parameters [{object, motion (of blocks that one of
+// weak_directions (a number), parameters [{object, capture (of blocks that one of
 // several has alone), kind, mode, unit, values,
 // standard_deviations, relative, determined_part, flags [{index, names}]}] (values in
 // the order of the report's; only flagged ones have an entry in `flags`), covariance

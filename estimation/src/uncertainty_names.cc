@@ -99,7 +99,7 @@ std::string OfObject(int object) {
 
 std::string OfBlock(const ParameterBlock& block) {
   return OfObject(block.object) +
-         (block.segment < 0 ? "" : " in motion " + std::to_string(block.segment));
+         (block.segment < 0 ? "" : " in capture " + std::to_string(block.segment + 1));
 }
 
 std::string Listed(const std::vector<std::string>& parts) {

@@ -21,7 +21,8 @@ std::string BlockQuantity(ParameterKind kind);
 // " of object 0", or nothing for the scene's own.
 std::string OfObject(int object);
 
-// " of object 0 in motion 2": also of which motion, if a block is one motion's alone.
+// " of object 0 in capture 2": also of which capture (segment 1), if a block is one's
+// alone.
 std::string OfBlock(const ParameterBlock& block);
 
 // "a", "a and b", "a, b and c".

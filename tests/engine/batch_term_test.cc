@@ -175,8 +175,8 @@ class BatchTermTest : public testing::TestWithParam<BatchCase> {
   Eigen::VectorXd Adjoint(const ForceTerm& term, bool directional,
                           VelocityPart part) const {
     Eigen::VectorXd gx = start_, gv = 2.0 * start_;
-    term.AddAdjoint(Point(directional), lambda_.data(), 0.7, part, gx.data(),
-                    gv.data());
+    term.AddAdjoint(Point(directional), lambda_.data(), 0.7, part, gx.data(), gv.data(),
+                    /*sink=*/nullptr);
     Eigen::VectorXd both(2 * gx.size());
     both << gx - start_, gv - 2.0 * start_;
     return both;
@@ -245,6 +245,32 @@ TEST_P(BatchTermTest, Parameters) {
     ExpectSame(Gradient(*batched_, directional), Gradient(*reference_, directional));
     ExpectSame(Entries(*batched_, directional), Entries(*reference_, directional));
     EXPECT_GT(Entries(*batched_, directional).norm(), 0.0);
+  }
+}
+
+// Parameters and adjoint in one pass, as each by itself; the adjoint of velocities may
+// be left out.
+TEST_P(BatchTermTest, AdjointWithParameters) {
+  const ParameterLayout layout(scene_);
+  const ParameterColumns columns(layout, 0);
+  for (const ForceTerm* term : {batched_.get(), reference_.get()}) {
+    for (bool directional : {false, true}) {
+      for (VelocityPart part : kParts) {
+        for (bool wants_gv : {false, true}) {
+          Eigen::VectorXd gradient = Eigen::VectorXd::Zero(layout.size());
+          ParameterSink sink(columns, 1.3, lambda_.data(), gradient.data());
+          Eigen::VectorXd gx = start_, gv = 2.0 * start_;
+          term->AddAdjoint(Point(directional), lambda_.data(), 1.3, part, gx.data(),
+                           wants_gv ? gv.data() : nullptr, &sink);
+          Eigen::VectorXd both(2 * gx.size());
+          both << gx - start_, gv - 2.0 * start_;
+          Eigen::VectorXd expected = 1.3 / 0.7 * Adjoint(*term, directional, part);
+          if (!wants_gv) expected.tail(gv.size()).setZero();
+          ExpectSame(both, expected);
+          ExpectSame(gradient, Gradient(*term, directional));
+        }
+      }
+    }
   }
 }
 

@@ -108,12 +108,12 @@ TEST(StepSolverTest, AFactorPutAsideServesItsMatrixAndNearbyOnes) {
   StepSolver solver(context);
   const Eigen::VectorXd b = RandomVector(pattern.num_rows(), 1);
   KeptFactor kept;
-  solver.StoreFactor(&kept);
-  EXPECT_TRUE(kept.empty());
   for (const double skew : {0.0, 0.3}) {  // by Cholesky, and by LU
     Fill(pattern, skew, 20.0, &solver.values());
+    solver.KeepFactorsIn(&kept);
+    EXPECT_TRUE(kept.empty());
     ASSERT_TRUE(solver.Factorize(skew == 0.0));
-    solver.StoreFactor(&kept);
+    solver.KeepFactorsIn(nullptr);
     ASSERT_FALSE(kept.empty());
     Fill(pattern, 0.2, 30.0, &solver.values());  // something else in between
     ASSERT_TRUE(solver.Factorize(false));
@@ -149,10 +149,11 @@ TEST(StepSolverTest, AKeptFactorSolvesAloneWhereThatIsExact) {
     const Eigen::MatrixXd a = Dense(pattern, solver.values());
     KeptFactor kept;
     Eigen::VectorXd z(easy.size());
+    solver.KeepFactorsIn(&kept);
     ASSERT_TRUE(solver.Factorize(false));
-    EXPECT_FALSE(solver.SolveByKept(easy.data(), z.data(), false));  // none is kept
+    EXPECT_FALSE(solver.SolveByKept(easy.data(), z.data(), false));  // none is in use
     ASSERT_TRUE(solver.Solve(easy.data(), z.data(), false));
-    solver.StoreFactor(&kept);
+    solver.KeepFactorsIn(nullptr);
     Fill(pattern, 0.2, 30.0, &solver.values());  // no longer the matrix
     solver.UseFactor(&kept, false);
     for (const bool transposed : {false, true}) {
@@ -163,8 +164,9 @@ TEST(StepSolverTest, AKeptFactorSolvesAloneWhereThatIsExact) {
     }
     // It was not tried on anything: nothing is known.
     Fill(pattern, 0.0, shift + least, &solver.values());
+    solver.KeepFactorsIn(&kept);
     ASSERT_TRUE(solver.Factorize(false));
-    solver.StoreFactor(&kept);
+    solver.KeepFactorsIn(nullptr);
     solver.UseFactor(&kept, false);
     EXPECT_FALSE(solver.SolveByKept(easy.data(), z.data(), false));
   }

@@ -23,14 +23,27 @@ inline Eigen::VectorXd CeresResiduals(TrajectoryProblem* problem,
 
 // Ceres's Jacobian of `ceres_problem` (the problem's own or a reduced one), columns in
 // layout order.
+// The parameter blocks of the problem, or of the reduced one, in the order of the
+// coordinates; in the latter some are cut into pieces.
+inline std::vector<double*> ParameterBlocksOf(TrajectoryProblem* problem,
+                                              const ceres::Problem& ceres_problem) {
+  std::vector<double*> blocks;
+  for (size_t b = 0; b < problem->layout().blocks().size(); ++b) {
+    double* piece = problem->block_coordinates(static_cast<int>(b));
+    double* const end = piece + problem->layout().blocks()[b].size;
+    for (; piece != end; piece += ceres_problem.ParameterBlockSize(piece)) {
+      blocks.push_back(piece);
+    }
+  }
+  return blocks;
+}
+
 inline ceres::CRSMatrix CeresJacobian(TrajectoryProblem* problem,
                                       ceres::Problem* ceres_problem,
                                       const Eigen::VectorXd& q) {
   problem->set_coordinates(q);
   ceres::Problem::EvaluateOptions options;
-  for (size_t b = 0; b < problem->layout().blocks().size(); ++b) {
-    options.parameter_blocks.push_back(problem->block_coordinates(static_cast<int>(b)));
-  }
+  options.parameter_blocks = ParameterBlocksOf(problem, *ceres_problem);
   ceres::CRSMatrix jacobian;
   EXPECT_TRUE(ceres_problem->Evaluate(options, nullptr, nullptr, nullptr, &jacobian));
   return jacobian;

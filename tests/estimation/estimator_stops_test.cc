@@ -68,12 +68,12 @@ TEST_F(EstimatorStopsTest, AFailedStartOfOneParameterIsReplacedByTheScreens) {
   MakeExplicit();
   ApplySettings("nG", &scene_);
   options_.uniform_value = 1e7;
+  options_.horizon = Horizon::kFull;
   const EstimatorSummary summary = Estimate(scene_, target_, options_);
   EXPECT_EQ(summary.termination, Termination::kConverged) << summary.message;
   EXPECT_EQ(summary.init, "screen");
   EXPECT_TRUE(test::HasNote(summary, "cannot be simulated"));
   options_.max_checked_parameters = 0;
-  options_.horizon = Horizon::kFull;
   EXPECT_EQ(Estimate(scene_, target_, options_).termination, Termination::kStartFailed);
   // Over a few frames it can be simulated, and from there it finds its way.
   options_.horizon = Horizon::kAuto;

@@ -284,14 +284,45 @@ TEST(ModelSelectionTest, MarkersBetweenFramesAreHeldOutToo) {
 
   // What was seen of the fitted frames does not enter a forecast.
   StopControl stop(1e9, nullptr);
-  const Forecaster forecaster(truth, target, 20, kFrames, EstimatorOptions(), &stop);
-  EXPECT_LT(forecaster.Run(truth).rms, 1e-12);
+  const auto forecast = [&] {
+    Forecaster forecaster((EstimatorOptions()));
+    forecaster.Add(truth, target, 20, kFrames);
+    return forecaster.Run({truth}, 1, &stop);
+  };
+  EXPECT_LT(forecast().rms, 1e-12);
   for (MarkerSample& sample : target.samples) {
     if (sample.time < 19.0) sample.position.setConstant(1.0);
   }
-  const Forecaster disturbed(truth, target, 20, kFrames, EstimatorOptions(), &stop);
-  EXPECT_LT(disturbed.Run(truth).rms, 1e-12);
-  EXPECT_LT(disturbed.Run(truth).residuals.front().norm(), 1e-12);
+  EXPECT_LT(forecast().rms, 1e-12);
+  EXPECT_LT(forecast().residuals.front().norm(), 1e-12);
+  EXPECT_GT(forecast().rms_of_all_frames, 1.0);
+}
+
+// Two captures of one cloth, of different lengths and starts: what the one does not
+// show the other does.
+TEST(ModelSelectionTest, SeveralCapturesChooseTogether) {
+  for (const char mode : {'G', 'R', 'L'}) {
+    const Scene truth = Truth(mode, 5);
+    Scene thrown = truth;
+    thrown.objects[0].velocities.setConstant(0.5);
+    for (int v = 0; v < truth.objects[0].num_vertices(); ++v) {
+      if (truth.objects[0].is_fixed[v]) {
+        thrown.objects[0].velocities.segment<3>(3 * v).setZero();
+      }
+    }
+    ModelSelectionOptions selection;
+    selection.objects = {0};
+    const SelectedModel model =
+        SelectModel({{test::WithEstimatesOverwritten(truth, 3.0),
+                      test::OwnMotion(truth, kFrames), "a"},
+                     {test::WithEstimatesOverwritten(thrown, 3.0),
+                      test::OwnMotion(thrown, 18), "b"}},
+                    EstimatorOptions(), selection);
+    EXPECT_EQ(model.selection.chosen, std::string("n") + mode);
+    ASSERT_EQ(model.summary.captures.size(), 2u);
+    EXPECT_EQ(model.summary.captures[1].num_frames, 18);
+    EXPECT_LT(model.summary.final_rms, 1e-9);
+  }
 }
 
 TEST(ModelSelectionTest, BadInputSaysWhatIsAccepted) {

@@ -23,10 +23,8 @@ Scene Uniform() {
 ScoreTest ScoreOf(const Scene& fitted, const Scene& truth, int seed) {
   Observations target = test::OwnMotion(truth, kFrames);
   AddNoise(truth, kSigma, seed, &target);
-  EstimatorOptions options;
-  options.num_frames = kFrames;
   StopControl stop(1e9, nullptr);
-  return TestScore(fitted, target, options, &stop);
+  return TestScore({{fitted, target, ""}}, EstimatorOptions(), &stop);
 }
 
 TEST(ScoreStatisticTest, IsStandardNormalWhereThereIsOnlyNoise) {
@@ -60,11 +58,10 @@ TEST(ScoreStatisticTest, SeesWhatVariesOverTheCloth) {
 TEST(ScoreStatisticTest, SaysNothingWhereTheJacobianIsTooLarge) {
   const Scene scene = Uniform();
   EstimatorOptions options;
-  options.num_frames = kFrames;
   options.max_lm_jacobian_bytes = 1.0;
   StopControl stop(1e9, nullptr);
   const ScoreTest test =
-      TestScore(scene, test::OwnMotion(scene, kFrames), options, &stop);
+      TestScore({{scene, test::OwnMotion(scene, kFrames), ""}}, options, &stop);
   EXPECT_FALSE(test.ok);
   EXPECT_FALSE(test.NothingToGain());
 }

@@ -245,10 +245,7 @@ TEST_F(SegmentLinkTest, ReducedProblemKeepsCostGradientAndZeros) {
   double cost = 0.0;
   std::vector<double> gradient;
   ceres::Problem::EvaluateOptions options;
-  for (size_t b = 0; b < problem_->layout().blocks().size(); ++b) {
-    options.parameter_blocks.push_back(
-        problem_->block_coordinates(static_cast<int>(b)));
-  }
+  options.parameter_blocks = test::ParameterBlocksOf(problem_.get(), *reduced);
   ASSERT_TRUE(reduced->Evaluate(options, &cost, nullptr, &gradient, nullptr));
   EXPECT_NEAR(cost, 0.5 * residuals.squaredNorm(), 1e-14 * cost);
   const Eigen::VectorXd expected = full.transpose() * residuals;

@@ -135,6 +135,24 @@ TEST(SeveralCaptures, InverseDynamicsIsOfThoseThatAreComplete) {
   EXPECT_THAT(ErrorOf(captures, options), HasSubstr("inverse dynamics needs"));
 }
 
+// What a start costs is not to be judged by the first capture's frames alone: here they
+// are few, and of another cloth.
+TEST(SeveralCaptures, TrialValuesAreJudgedByAllFramesOfAll) {
+  std::vector<CapturedMotion> captures = TwoCaptures("nG", 40);
+  Scene stiff = captures[0].scene;
+  stiff.objects[0].stiffness *= 30.0;
+  captures[0].observations = test::OwnMotion(stiff, 4);
+  for (CapturedMotion& capture : captures) HideHalf(&capture.observations);
+  EstimatorOptions options;
+  options.max_iterations = 0;
+  const EstimatorSummary screened = Estimate(captures, options);
+  EXPECT_EQ(screened.init, "screen");
+  const EstimatorSummary fitted = Estimate(captures, EstimatorOptions());
+  ASSERT_TRUE(fitted.usable()) << fitted.message;
+  // The trial values are a quarter of a decade apart.
+  EXPECT_LT(std::abs(std::log10(screened.parameters[0] / fitted.parameters[0])), 0.2);
+}
+
 TEST(SeveralCaptures, WindAndInitialVelocityAreEachOnesOwn) {
   std::vector<CapturedMotion> captures = TwoCaptures("nG", 30);
   for (CapturedMotion& capture : captures) {

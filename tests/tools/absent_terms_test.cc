@@ -74,9 +74,10 @@ class AbsentTermsTest : public ::testing::Test {
   }
 
   // Instructions of a rollout, without reading and writing files.
-  double OfSimulation(const Scene& scene) {
+  double OfSimulation(const Scene& scene, int num_frames = 10) {
     return Count("dpe::Simulator::Simulate(int)", scene, "simulate_cloth",
-                 {"--frames=10", "--output=" + folder_.File("out.csv")});
+                 {"--frames=" + std::to_string(num_frames),
+                  "--output=" + folder_.File("out.csv")});
   }
 
   // Instructions of an estimation of a few rollouts and derivatives.
@@ -163,8 +164,9 @@ TEST_F(AbsentTermsTest, NorInDerivatives) {
 TEST_F(AbsentTermsTest, WithoutDampingTheStepIsSymmetric) {
   Scene damped = BareScene();
   damped.objects[0].damping = 0.1;
-  // 1.33 when this was written; 1.21 if undamped steps were solved as damped ones.
-  EXPECT_GT(OfSimulation(damped), 1.25 * OfSimulation(BareScene()));
+  // Measured: 1.27, and 1.03 if undamped steps are solved as damped ones.
+  constexpr int kFrames = 60;  // what is done once counts for little
+  EXPECT_GT(OfSimulation(damped, kFrames), 1.15 * OfSimulation(BareScene(), kFrames));
 }
 
 TEST_F(AbsentTermsTest, OnlyScenesWithCollidersPayForThem) {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include "dpe/engine/parameters.h"
+#include "dpe/estimation/joint_layout.h"
 
 namespace dpe::tools {
 namespace {
@@ -45,21 +45,25 @@ std::string Describe(Eigen::VectorXd values, const std::string& unit) {
 }
 
 void PrintBlocks(const EstimationInput& input, const EstimatorSummary& summary) {
-  const ParameterLayout layout(input.scene);
-  const Eigen::VectorXd truth = layout.Extract(input.scene);
+  const TrueParameters truth = TrueParametersOf(input.scenes());
+  Eigen::Index offset = 0;
   for (size_t b = 0; b < summary.blocks.size(); ++b) {
     const EstimatedBlock& block = summary.blocks[b];
-    const std::string owner =
+    std::string owner =
         block.object >= 0 ? "object " + std::to_string(block.object) : "scene";
+    if (block.capture >= 0) {
+      owner = "capture " + std::to_string(block.capture + 1) + " " + owner;
+    }
     std::cout << owner << " " << block.kind << " (" << ModeName(block.mode) << ", "
               << block.values.size() << "): " << Describe(block.values, block.unit)
               << "\n";
-    if (input.truth_is_known && layout.Represents(input.scene, static_cast<int>(b))) {
-      const ParameterBlock& place = layout.blocks()[b];
+    if (input.truth_is_known && truth.is_known[b]) {
       std::cout << "  true: "
-                << Describe(truth.segment(place.offset, place.size), block.unit)
+                << Describe(truth.values.segment(offset, block.values.size()),
+                            block.unit)
                 << "\n";
     }
+    offset += block.values.size();
     if (!block.inactive.empty()) {
       std::cout << "  " << block.inactive.size()
                 << " more have no influence on the motion and were left as they are\n";
@@ -67,10 +71,46 @@ void PrintBlocks(const EstimationInput& input, const EstimatorSummary& summary) 
   }
 }
 
-void PrintUncertainty(const Uncertainty& uncertainty) {
-  if (!uncertainty.ok) {
-    std::cout << "Error bars: none, " << uncertainty.message << "\n";
+void PrintErrors(const EstimatorSummary& summary,
+                 const std::vector<Validation>& validations) {
+  const Validation all = Together(validations);
+  std::cout << "RMS position error over the " << summary.num_frames
+            << " fitted frames: " << Format(summary.final_rms) << " m\n";
+  if (all.num_frames > 0) {
+    std::cout << "RMS position error over " << all.num_frames
+              << " frames (validation): " << Format(all.rms) << " m\n";
   }
+  const bool are_several = validations.size() > 1;
+  if (std::isfinite(all.held_out_rms)) {
+    const std::string frames =
+        are_several ? "" : std::to_string(all.num_frames - summary.num_frames) + " ";
+    std::cout << "RMS position error over the " << frames
+              << "frames after them (held out): " << Format(all.held_out_rms) << " m\n";
+  }
+  for (size_t c = 0; c < validations.size(); ++c) {
+    const std::string capture = "capture " + std::to_string(c + 1);
+    if (are_several) {
+      std::cout << "  " << capture << ": " << Format(summary.captures[c].final_rms)
+                << " m over " << summary.captures[c].num_frames << " frames";
+      if (validations[c].num_frames > 0) {
+        std::cout << ", " << Format(validations[c].rms) << " m over "
+                  << validations[c].num_frames << " (validation)";
+      }
+      if (std::isfinite(validations[c].held_out_rms)) {
+        std::cout << ", " << Format(validations[c].held_out_rms) << " m over the "
+                  << validations[c].num_frames - summary.captures[c].num_frames
+                  << " held out";
+      }
+      std::cout << "\n";
+    }
+    if (validations[c].note.empty()) continue;
+    std::cout << "Note: " << (are_several ? capture + ": " : "") << validations[c].note
+              << "\n";
+  }
+}
+
+void PrintUncertainty(const Uncertainty& uncertainty) {
+  if (!uncertainty.ok) std::cout << "Error bars: none, ";
   for (const std::string& line : UncertaintyLines(uncertainty)) {
     std::cout << line << "\n";
   }
@@ -110,23 +150,39 @@ void ProgressTable::Tick(double seconds) {
   line_is_drawn_ = true;
 }
 
-void PrintTask(const EstimationJob& job, const EstimationInput& input) {
-  const ParameterLayout layout(input.scene);
-  std::cout << "Scene "
-            << (job.scene_path.empty() ? "made of the target" : job.scene_path)
-            << ", settings ";
-  if (input.auto_objects.empty()) {
-    std::cout << SettingsString(input.scene) << ": " << layout.size() << " parameters";
-  } else {
-    std::cout << job.settings << ": models";
+void PrintTask(const EstimationInput& input) {
+  const CaptureInput& first = input.captures[0];
+  const JointLayout joint(input.scenes(), /*own_wind=*/true);
+  const std::string settings = input.auto_objects.empty()
+                                   ? SettingsString(first.scene) + ": " +
+                                         std::to_string(joint.layout().size()) +
+                                         " parameters"
+                                   : "auto: models";
+  const auto describe_scene = [](const CaptureInput& capture) {
+    return capture.scene_path.empty() ? "made of the target" : capture.scene_path;
+  };
+  const auto describe_target = [](const CaptureInput& capture) {
+    return std::to_string(capture.num_frames) + " frames of " +
+           (capture.target_path.empty() ? "the scene's own motion"
+                                        : capture.target_path);
+  };
+  if (input.captures.size() == 1) {
+    std::cout << "Scene " << describe_scene(first) << ", settings " << settings
+              << " to fit to " << describe_target(first) << std::endl;
+    return;
   }
-  std::cout << " to fit to " << input.num_frames << " frames of "
-            << (job.target_path.empty() ? "the scene's own motion" : job.target_path)
-            << std::endl;
+  std::cout << "Settings " << settings << " to fit to " << input.captures.size()
+            << " captures\n";
+  for (size_t c = 0; c < input.captures.size(); ++c) {
+    std::cout << "Capture " << c + 1 << ": scene " << describe_scene(input.captures[c])
+              << ", " << describe_target(input.captures[c]) << "\n";
+  }
+  std::cout << std::flush;
 }
 
 void PrintSummary(const EstimationInput& input, const EstimatorSummary& summary,
-                  const Validation& validation, const std::vector<std::string>& files) {
+                  const std::vector<Validation>& validations,
+                  const std::vector<std::string>& files) {
   std::cout << "\n"
             << TerminationName(summary.termination) << ": " << summary.message << "\n"
             << "Start " << summary.init << ", solver " << summary.solver << " ("
@@ -136,24 +192,12 @@ void PrintSummary(const EstimationInput& input, const EstimatorSummary& summary,
             << Format(summary.wall_time_s) << " s\n";
   for (const std::string& note : summary.notes) std::cout << "Note: " << note << "\n";
   if (std::isfinite(summary.final_cost)) {
-    std::cout << "RMS position error over the " << summary.num_frames
-              << " fitted frames: " << Format(summary.final_rms) << " m\n";
-    if (validation.num_frames > 0) {
-      std::cout << "RMS position error over " << validation.num_frames
-                << " frames (validation): " << Format(validation.rms) << " m\n";
-    }
-    if (std::isfinite(validation.held_out_rms)) {
-      std::cout << "RMS position error over the "
-                << validation.num_frames - summary.num_frames
-                << " frames after them (held out): " << Format(validation.held_out_rms)
-                << " m\n";
-    }
-    if (!validation.note.empty()) std::cout << "Note: " << validation.note << "\n";
+    PrintErrors(summary, validations);
     PrintBlocks(input, summary);
     PrintUncertainty(summary.uncertainty);
     if (summary.sensitivity.ok) std::cout << summary.sensitivity.text << "\n";
     if (input.truth_is_known) {
-      const double deviation = ParameterDeviationPercent(summary, input.scene);
+      const double deviation = ParameterDeviationPercent(summary, input.scenes());
       std::cout << "Mean deviation from the true parameters: " << Format(deviation)
                 << (std::isfinite(deviation) ? " %\n" : "\n");
     }

@@ -34,12 +34,14 @@ class ProgressTable {
 };
 
 // What was read and is about to be fitted.
-void PrintTask(const EstimationJob& job, const EstimationInput& input);
+void PrintTask(const EstimationInput& input);
 
-// RMS over the fitted and the validated frames, parameters with unit, deviation where
-// the truth is known, why it stopped, where the files are.
+// RMS over the fitted and the validated frames, of several captures also of each,
+// parameters with unit, deviation where the truth is known, why it stopped, where the
+// files are.
 void PrintSummary(const EstimationInput& input, const EstimatorSummary& summary,
-                  const Validation& validation, const std::vector<std::string>& files);
+                  const std::vector<Validation>& validations,
+                  const std::vector<std::string>& files);
 
 }  // namespace dpe::tools
 

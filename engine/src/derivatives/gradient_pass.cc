@@ -33,6 +33,9 @@ bool ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl_dx,
     } else {
       solver->Reset();
     }
+    Prefetch next;
+    if (s > 0 && s <= static_cast<int>(kept.size())) next = kept[s - 1]->Prefetched();
+    states.meanwhile = &next;
     if (!integrator->AdjointStep(system, solver, states,
                                  {gx.data(), gv.data(), gradient->data()})) {
       return false;

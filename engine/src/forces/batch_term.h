@@ -117,17 +117,20 @@ class BatchTerm final : public ForceTerm {
   }
 
   void AddAdjoint(const ForceState& state, const double* lambda, double c,
-                  VelocityPart part, double* gx, double* gv) const override {
+                  VelocityPart part, double* gx, double* gv,
+                  ParameterSink* sink) const override {
     Batch batch;
     AdjointLanes<kCoords> out;
-    const LoopFlags flags = FlagsOf(state);
+    LoopFlags flags = FlagsOf(state);
     // Without a direction dphi/du is its plain part alone.
-    const bool has_velocity_part =
-        flags.velocity && (flags.direction || part == VelocityPart::kWhole);
+    const bool has_velocity_part = gv != nullptr && flags.velocity &&
+                                   (flags.direction || part == VelocityPart::kWhole);
+    const bool has_parameters = sink != nullptr && WantsAny(*sink, &flags);
     for (int first = 0; first < num_elements(); first += kBatch) {
       Gather(state, first, flags, &batch);
       GatherAdjoint(lambda, c, first, &batch);
       law_.Adjoints(batch, flags, part, &out);
+      if (has_parameters) ReportAll(first, batch, flags, sink);
       const int count = CountFrom(first);
       for (int i = 0; i < count; ++i) {
         const auto& rows = rows_[first + i];
@@ -147,24 +150,14 @@ class BatchTerm final : public ForceTerm {
 
   void VisitParameters(const ForceState& state, ParameterSink* sink) const override {
     LoopFlags flags = FlagsOf(state);
-    bool wants_any = false;
-    for (int p = 0; p < Law::kParameters; ++p) {
-      const bool wants = sink->Wants(Law::kParameterKind[p]);
-      wants_any |= wants;
-      flags.velocity |= wants && p > 0;
-    }
-    if (!wants_any) return;
+    if (!WantsAny(*sink, &flags)) return;
     Batch batch;
-    VectorLanes out[Law::kParameters];
     for (int first = 0; first < num_elements(); first += kBatch) {
       Gather(state, first, flags, &batch);
-      law_.Parameters(batch, flags, out);
       if (sink->adjoint() != nullptr) {
         GatherAdjoint(sink->adjoint(), sink->scale(), first, &batch);
       }
-      for (int p = 0; p < Law::kParameters; ++p) {
-        if (sink->Wants(Law::kParameterKind[p])) Report(p, first, batch, out[p], sink);
-      }
+      ReportAll(first, batch, flags, sink);
     }
   }
 
@@ -181,6 +174,7 @@ class BatchTerm final : public ForceTerm {
     const auto* rows = rows_.data() + first;
     WithFlags(flags, [&](auto direction, auto velocity) DPE_INLINE_LAMBDA {
       for (int i = 0; i < kBatch; ++i) {
+        if (state.meanwhile != nullptr) state.meanwhile->Advance();
         for (int m = 0; m < kCoords; ++m) {
           batch->q[m].Set(i, WeightedSum(Law::kPosition[m], state.x, rows[i]));
           if constexpr (!direction) continue;
@@ -197,6 +191,26 @@ class BatchTerm final : public ForceTerm {
   void GatherAdjoint(const double* lambda, double c, int first, Batch* batch) const {
     for (int i = 0; i < kBatch; ++i) {
       batch->s.Set(i, c * WeightedSum(Law::kForce, lambda, rows_[first + i]));
+    }
+  }
+
+  // Also sets flags->velocity where a parameter needs it.
+  static bool WantsAny(const ParameterSink& sink, LoopFlags* flags) {
+    bool wants_any = false;
+    for (int p = 0; p < Law::kParameters; ++p) {
+      const bool wants = sink.Wants(Law::kParameterKind[p]);
+      wants_any |= wants;
+      flags->velocity |= wants && p > 0;
+    }
+    return wants_any;
+  }
+
+  void ReportAll(int first, const Batch& batch, LoopFlags flags,
+                 ParameterSink* sink) const {
+    VectorLanes out[Law::kParameters];
+    law_.Parameters(batch, flags, out);
+    for (int p = 0; p < Law::kParameters; ++p) {
+      if (sink->Wants(Law::kParameterKind[p])) Report(p, first, batch, out[p], sink);
     }
   }
 

@@ -115,7 +115,9 @@ class ElementTerm final : public ForceTerm {
   }
 
   void AddAdjoint(const ForceState& state, const double* lambda, double c,
-                  VelocityPart part, double* gx, double* gv) const override {
+                  VelocityPart part, double* gx, double* gv,
+                  ParameterSink* sink) const override {
+    if (sink != nullptr) VisitParameters(state, sink);
     ElementInput<kCoords> input;
     Expansion<kCoords> expansion;
     for (int e = 0; e < num_elements(); ++e) {
@@ -137,6 +139,7 @@ class ElementTerm final : public ForceTerm {
           if (Kernel::kPosition[m][j] == 0.0) continue;
           gxj += Kernel::kPosition[m][j] * sq[m];
         }
+        if (gv == nullptr) continue;
         Eigen::Map<Eigen::Vector3d> gvj(gv + 3 * vertices[j]);
         gvj += Kernel::kVelocity[j] * su;
       }

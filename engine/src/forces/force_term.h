@@ -15,6 +15,7 @@
 
 #include "forces/parameter_sink.h"
 #include "linear/block_pattern.h"
+#include "linear/prefetch.h"
 
 namespace dpe {
 
@@ -34,6 +35,8 @@ struct ForceState {
   const double* v = nullptr;   // m/s
   const double* dx = nullptr;  // direction; null: both dx and dv are zero
   const double* dv = nullptr;
+  // If not null, what will be needed next and is fetched meanwhile.
+  Prefetch* meanwhile = nullptr;
 };
 
 // Which part of dphi/dv is meant.
@@ -67,8 +70,14 @@ class ForceTerm {
 
   // gx += c (dphi/dx)^T lambda and gv += c (dphi/dv)^T lambda; `lambda` (3N) must be
   // zero at fixed vertices.
+  //
+  // @param gv    null if it is not wanted
+  // @param sink  if not null, what VisitParameters does as well; its adjoint is lambda
+  //              and its scale is c. Where elements are looked at anyway that costs
+  //              little
   virtual void AddAdjoint(const ForceState& state, const double* lambda, double c,
-                          VelocityPart part, double* gx, double* gv) const = 0;
+                          VelocityPart part, double* gx, double* gv,
+                          ParameterSink* sink) const = 0;
 
   // Reports dphi/dp for each parameter this term owns.
   virtual void VisitParameters(const ForceState& state, ParameterSink* sink) const = 0;

@@ -41,11 +41,12 @@ void GravityTerm::AddJacobian(const ForceState& /*state*/, double /*cx*/, double
   }
 }
 
-void GravityTerm::AddAdjoint(const ForceState& /*state*/, const double* lambda,
-                             double c, VelocityPart part, double* /*gx*/,
-                             double* gv) const {
+void GravityTerm::AddAdjoint(const ForceState& state, const double* lambda, double c,
+                             VelocityPart part, double* /*gx*/, double* gv,
+                             ParameterSink* sink) const {
+  if (sink != nullptr) VisitParameters(state, sink);
   const double rate = c * Rate(part);
-  if (rate == 0.0) return;
+  if (rate == 0.0 || gv == nullptr) return;
   for (int i : vertices_) {
     const double factor = rate * parameters_->mass[i];
     for (int k = 3 * i; k < 3 * i + 3; ++k) gv[k] += factor * lambda[k];

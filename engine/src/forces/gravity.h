@@ -28,7 +28,8 @@ class GravityTerm final : public ForceTerm {
   void AddJacobian(const ForceState& state, double cx, double cv, VelocityPart part,
                    double* values) const override;
   void AddAdjoint(const ForceState& state, const double* lambda, double c,
-                  VelocityPart part, double* gx, double* gv) const override;
+                  VelocityPart part, double* gx, double* gv,
+                  ParameterSink* sink) const override;
   void VisitParameters(const ForceState& state, ParameterSink* sink) const override;
 
  private:

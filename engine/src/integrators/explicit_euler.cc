@@ -34,10 +34,9 @@ bool ExplicitEuler::AdjointStep(ObjectSystem* system, StepSolver* /*solver*/,
       lambda_[c] /= system->parameters().mass[i];
     }
   }
-  system->AddAdjoint(point, lambda_.data(), states.h, VelocityPart::kWhole, adjoint.gx,
-                     adjoint.gv);
-  AddParameterAdjoint(*system, point, states.h,
-                      Difference(*system, states.v0, states.v1), adjoint.gp);
+  system->AddStepAdjoint(point, lambda_.data(), states.h, VelocityPart::kWhole,
+                         Difference(*system, states.v0, states.v1), adjoint.gx,
+                         adjoint.gv, adjoint.gp);
   return true;
 }
 

@@ -27,16 +27,14 @@ bool ImplicitEuler::AdjointStep(ObjectSystem* system, StepSolver* solver,
   SetMu(*system, states.h, adjoint);
   system->AssembleStepMatrix(states.x1, states.v1, states.h, &solver->values());
   if (!PrepareSolver(*system, solver) || !SolveAdjoint(*system, solver)) return false;
-  unused_.resize(system->num_coordinates());  // receives D^T lambda, which has no use
-  system->AddAdjoint(point, lambda_.data(), states.h, VelocityPart::kWhole, adjoint.gx,
-                     unused_.data());
+  system->AddStepAdjoint(point, lambda_.data(), states.h, VelocityPart::kWhole,
+                         Difference(*system, states.v0, states.v1), adjoint.gx,
+                         /*gv=*/nullptr, adjoint.gp);
   for (int i : system->free_vertices()) {
     for (int c = 3 * i; c < 3 * i + 3; ++c) {
       adjoint.gv[c] = system->parameters().mass[i] * lambda_[c];
     }
   }
-  AddParameterAdjoint(*system, point, states.h,
-                      Difference(*system, states.v0, states.v1), adjoint.gp);
   return true;
 }
 

@@ -27,7 +27,7 @@ class ImplicitEuler final : public Integrator {
 
  private:
   ImplicitStage stage_;
-  std::vector<double> momentum_, unused_;
+  std::vector<double> momentum_;
 };
 
 }  // namespace dpe

@@ -53,14 +53,6 @@ bool Integrator::SolveAdjointByKept(const ObjectSystem& system, StepSolver* solv
   return true;
 }
 
-void Integrator::AddParameterAdjoint(const ObjectSystem& system,
-                                     const ForceState& point, double c,
-                                     const double* dv, double* gp) {
-  if (system.local_columns().used().empty()) return;
-  ParameterSink sink(system.local_columns(), 1.0, lambda_.data(), gp);
-  system.VisitStepParameters(point, c, dv, &sink);
-}
-
 void Integrator::ListParameterEntries(const ObjectSystem& system,
                                       const ForceState& point, double c,
                                       const double* dv, StageLinearization* out) {

@@ -34,6 +34,8 @@ struct StepStates {
   const double* v1 = nullptr;
   const double* xs = nullptr;  // after the first of two stages; else null
   const double* vs = nullptr;
+  // If not null, what the next call will read and is fetched meanwhile.
+  Prefetch* meanwhile = nullptr;
 };
 
 // Where a step writes its result; fixed entries are set by the caller, those of the
@@ -126,9 +128,6 @@ class Integrator {
   bool SolveAdjointByKept(const ObjectSystem& system, StepSolver* solver);
   // lambda_ := gv + c gx at free vertices, 0 elsewhere.
   void SetMu(const ObjectSystem& system, double c, const StepAdjoint& adjoint);
-  // gp += lambda^T (c dphi/dp - (dM/dp) dv).
-  void AddParameterAdjoint(const ObjectSystem& system, const ForceState& point,
-                           double c, const double* dv, double* gp);
   // Appends c dphi/dp - (dM/dp) dv to out->entries.
   static void ListParameterEntries(const ObjectSystem& system, const ForceState& point,
                                    double c, const double* dv, StageLinearization* out);

@@ -60,10 +60,10 @@ bool LinearlyImplicitEuler::AdjointStep(ObjectSystem* system, StepSolver* solver
       adjoint.gv[c] = system->parameters().mass[i] * lambda_[c];
     }
   }
-  const ForceState point = ExpansionPoint(*system, states);
-  system->AddAdjoint(point, lambda_.data(), states.h, VelocityPart::kMinusPlain,
-                     adjoint.gx, adjoint.gv);
-  AddParameterAdjoint(*system, point, states.h, direction_v_.data(), adjoint.gp);
+  ForceState point = ExpansionPoint(*system, states);
+  point.meanwhile = states.meanwhile;
+  system->AddStepAdjoint(point, lambda_.data(), states.h, VelocityPart::kMinusPlain,
+                         direction_v_.data(), adjoint.gx, adjoint.gv, adjoint.gp);
   return true;
 }
 

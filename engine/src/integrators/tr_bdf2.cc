@@ -76,15 +76,14 @@ bool TrBdf2::AdjointStep(ObjectSystem* system, StepSolver* solver,
   const int n = system->num_coordinates();
   const double c = kHalfGamma * states.h;
   const Eigen::VectorXd& mass = system->parameters().mass;
-  unused_.resize(n);
   // Second stage: (gx, gv) become the adjoint of its input.
   const ForceState end{states.x1, states.v1, nullptr, nullptr};
   SetMu(*system, c, adjoint);
   system->AssembleStepMatrix(states.x1, states.v1, c, &solver->values());
   if (!PrepareSolver(*system, solver) || !SolveAdjoint(*system, solver)) return false;
-  system->AddAdjoint(end, lambda_.data(), c, VelocityPart::kWhole, adjoint.gx,
-                     unused_.data());
-  AddParameterAdjoint(*system, end, c, SecondChange(*system, states), adjoint.gp);
+  system->AddStepAdjoint(end, lambda_.data(), c, VelocityPart::kWhole,
+                         SecondChange(*system, states), adjoint.gx, /*gv=*/nullptr,
+                         adjoint.gp);
   gx_stage_.resize(n);
   gv_stage_.resize(n);
   for (int i = 0; i < system->num_vertices(); ++i) {
@@ -108,20 +107,18 @@ bool TrBdf2::AdjointStep(ObjectSystem* system, StepSolver* solver,
       adjoint.gv[k] += mass[i] * lambda_[k] + c * gx_stage_[k];
     }
   }
-  system->AddAdjoint(start, lambda_.data(), c, VelocityPart::kWhole, adjoint.gx,
-                     adjoint.gv);
+  std::fill(change_.begin(), change_.end(), 0.0);
+  system->AddStepAdjoint(start, lambda_.data(), c, VelocityPart::kWhole, change_.data(),
+                         adjoint.gx, adjoint.gv, adjoint.gp);
   // K_s acts on x0 and, through the stage's c v0, on v0.
   std::fill(gx_stage_.begin(), gx_stage_.end(), 0.0);
-  system->AddAdjoint(middle, lambda_.data(), c, VelocityPart::kWhole, gx_stage_.data(),
-                     unused_.data());
+  system->AddStepAdjoint(middle, lambda_.data(), c, VelocityPart::kWhole,
+                         Difference(*system, states.v0, states.vs), gx_stage_.data(),
+                         /*gv=*/nullptr, adjoint.gp);
   for (int k = 0; k < n; ++k) {
     adjoint.gx[k] += gx_stage_[k];
     adjoint.gv[k] += c * gx_stage_[k];
   }
-  AddParameterAdjoint(*system, middle, c, Difference(*system, states.v0, states.vs),
-                      adjoint.gp);
-  std::fill(change_.begin(), change_.end(), 0.0);
-  AddParameterAdjoint(*system, start, c, change_.data(), adjoint.gp);
   return true;
 }
 

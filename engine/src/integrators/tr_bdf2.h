@@ -44,7 +44,7 @@ class TrBdf2 final : public Integrator {
   const double* SecondChange(const ObjectSystem& system, const StepStates& states);
 
   ImplicitStage stage_;
-  std::vector<double> x_in_, momentum_, force_, unused_, change_;
+  std::vector<double> x_in_, momentum_, force_, change_;
   std::vector<double> gx_stage_, gv_stage_;
 };
 

@@ -27,6 +27,12 @@ struct DenseKernels {
   // x_j being column j of the m x width panel x.
   void (*solve_right)(int m, int width, const double* t, const double* scale, double* x,
                       long ldx);
+
+  // Copies `count` doubles in whole lines of 64 bytes, from and to such addresses, past
+  // the caches where the processor can: for what will not be read again soon.
+  void (*stream)(long count, const double* from, double* to);
+  // Before another thread may read such a copy.
+  void (*end_stream)();
 };
 
 // Those for this processor.

@@ -21,6 +21,8 @@ struct Pack {
   static Pack All(double x) { return {_mm256_set1_pd(x)}; }
   void Store(double* p) const { _mm256_storeu_pd(p, value); }
   void Store(double* p, int count) const { _mm256_maskstore_pd(p, Mask(count), value); }
+  void Stream(double* p) const { _mm256_stream_pd(p, value); }
+  static void EndStream() { _mm_sfence(); }
   static __m256i Mask(int count) {
     return _mm256_cmpgt_epi64(_mm256_set1_epi64x(count),
                               _mm256_setr_epi64x(0, 1, 2, 3));

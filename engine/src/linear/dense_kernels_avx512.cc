@@ -23,6 +23,8 @@ struct Pack {
   void Store(double* p, int count) const {
     _mm512_mask_storeu_pd(p, Mask(count), value);
   }
+  void Stream(double* p) const { _mm512_stream_pd(p, value); }
+  static void EndStream() { _mm_sfence(); }
   static __mmask8 Mask(int count) { return static_cast<__mmask8>((1u << count) - 1u); }
 };
 

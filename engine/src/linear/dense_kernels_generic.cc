@@ -20,6 +20,8 @@ struct Pack {
     p[1] = high;
   }
   void Store(double* p, int /*count: 1*/) const { p[0] = low; }
+  void Stream(double* p) const { Store(p); }
+  static void EndStream() {}
 };
 
 inline Pack operator+(Pack a, Pack b) { return {a.low + b.low, a.high + b.high}; }

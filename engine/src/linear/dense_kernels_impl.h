@@ -6,8 +6,9 @@
 // file compiles must never be linked into code that runs on other processors.
 //
 // A Pack has  kWidth;  Pack::Load(p), Load(p, count), Store(p), Store(p, count) (the
-// first `count` doubles, in 1..kWidth);  Pack::All(x);  MultiplySubtract(a, b, c) = c -
-// a b; a * b.
+// first `count` doubles, in 1..kWidth);  Stream(p), to an address that is a multiple of
+// its size, and EndStream() after the last;  Pack::All(x);  MultiplySubtract(a, b, c) =
+// c - a b; a * b.
 #ifndef DPE_ENGINE_LINEAR_DENSE_KERNELS_IMPL_H_
 #define DPE_ENGINE_LINEAR_DENSE_KERNELS_IMPL_H_
 
@@ -146,7 +147,11 @@ void SolveRight(int m, int width, const double* t, const double* scale, double* 
   if (i < m) SolveRightRows(width, t, scale, x + i, ldx, m - i);
 }
 
-const DenseKernels kKernels = {SubtractProduct, SolveRight};
+void Stream(long count, const double* from, double* to) {
+  for (long i = 0; i < count; i += Pack::kWidth) Pack::Load(from + i).Stream(to + i);
+}
+
+const DenseKernels kKernels = {SubtractProduct, SolveRight, Stream, Pack::EndStream};
 
 }  // namespace
 }  // namespace dpe

@@ -44,10 +44,12 @@ bool DirectSolver::Factorize(const std::vector<double>& values, bool symmetric) 
   is_exact_ = true;
   symmetric_ = symmetric;
   kind_ = Kind::kNone;
-  error_ = -1.0;
   if (!lu_) lu_ = std::make_unique<SupernodalLu>(context_->structure());
-  if (lu_->Factorize(values.data(), symmetric, &context_->factorization_work)) {
+  if (target_ != nullptr) target_->Clear();
+  if (lu_->Factorize(values.data(), symmetric, &context_->factorization_work,
+                     target_ != nullptr ? &target_->panels : nullptr)) {
     kind_ = Kind::kLu;
+    if (target_ != nullptr) target_->has_factor = true;
   }
   return kind_ != Kind::kNone || FactorizeWithPivots(values);
 }
@@ -59,17 +61,13 @@ bool DirectSolver::KeepFactorization(const std::vector<double>& values) {
 }
 
 SupernodalFactor DirectSolver::factor() const {
-  return kind_ == Kind::kKept ? kept_->lu->factor() : lu_->factor();
+  return kind_ == Kind::kKept ? kept_->panels.factor(*context_->structure())
+                              : lu_->factor();
 }
 
-void DirectSolver::StoreFactor(KeptFactor* kept) {
-  kept->Clear();
-  if (kind_ == Kind::kLu) {
-    std::swap(kept->lu, lu_);
-    kept->has_factor = true;
-    kept->error = error_;
-  }
-  kind_ = Kind::kNone;
+void DirectSolver::KeepFactorsIn(KeptFactor* kept) {
+  if (kept != nullptr) kept->Clear();
+  target_ = kept;
 }
 
 void DirectSolver::UseFactor(const KeptFactor* kept, bool symmetric) {
@@ -130,9 +128,10 @@ bool DirectSolver::SolveByFactor(const std::vector<double>& values, double* z,
     residual = right - residual;
     const double previous = norm;
     norm = residual.norm();
-    if (cycle == 0 && kind_ == Kind::kLu && is_exact_ && norm <= kTarget * scale) {
-      error_ = std::max(norm, std::numeric_limits<double>::epsilon() * scale) /
-               Vector(z, n).norm();
+    if (cycle == 0 && target_ != nullptr && kind_ == Kind::kLu && is_exact_ &&
+        target_->error < 0.0 && norm <= kTarget * scale) {
+      target_->error = std::max(norm, std::numeric_limits<double>::epsilon() * scale) /
+                       Vector(z, n).norm();
     }
     if (norm <= target) return true;
     // When a cycle gains little, rounding level is reached; the first solve gains
@@ -164,6 +163,7 @@ SupernodalFactor DirectSolver::ExactFactor(const std::vector<double>& values) {
 bool DirectSolver::FactorizeWithPivots(const std::vector<double>& values) {
   const int n = pattern_.num_rows();
   kind_ = Kind::kNone;
+  if (target_ != nullptr) target_->Clear();
   if (!ConstVector(values.data(), static_cast<int>(values.size())).allFinite()) {
     return false;
   }

@@ -64,9 +64,9 @@ class DirectSolver {
   bool Solve(const std::vector<double>& values, const double* b, double* z,
              bool transposed, double accuracy = 0.0);
 
-  // Hands the factorisation over to `kept`, or clears that if there is none to keep.
-  // Then there is none here until the next.
-  void StoreFactor(KeptFactor* kept);
+  // Until it is called with null, every factorisation goes into `kept` too, which is
+  // clear where there is none to keep.
+  void KeepFactorsIn(KeptFactor* kept);
   // Goes on with such a one, of the matrix at hand or a nearby one; it must stay as it
   // is while it is used.
   void UseFactor(const KeptFactor* kept, bool symmetric);
@@ -101,8 +101,8 @@ class DirectSolver {
   bool is_exact_ = true;  // the factorisation is that of the current matrix
   bool symmetric_ = true;
   std::unique_ptr<SupernodalLu> lu_;
-  double error_ = -1.0;  // see KeptFactor
-  const KeptFactor* kept_ = nullptr;
+  KeptFactor* target_ = nullptr;      // where factorisations are kept
+  const KeptFactor* kept_ = nullptr;  // the one in use
   std::unique_ptr<PivotedLu> pivoted_lu_;
 };
 

@@ -15,8 +15,8 @@ constexpr int kDirectRows = 10000;
 
 bool PrefersIterativeSolver(int num_rows) { return num_rows > kDirectRows; }
 
-size_t StepSolverContext::kept_bytes() {
-  return direct->structure()->num_values() * sizeof(double);
+size_t StepSolverContext::kept_bytes(bool symmetric) {
+  return direct->structure()->num_values(symmetric) * sizeof(double);
 }
 
 StepSolver::StepSolver(std::shared_ptr<StepSolverContext> context)
@@ -48,15 +48,6 @@ bool StepSolver::KeepFactorization() {
     return true;
   }
   return direct_.KeepFactorization(values_);
-}
-
-void StepSolver::StoreFactor(KeptFactor* kept) {
-  if (iterative_ || !factorized_) {
-    kept->Clear();
-  } else {
-    direct_.StoreFactor(kept);
-  }
-  factorized_ = false;
 }
 
 void StepSolver::UseFactor(const KeptFactor* kept, bool symmetric) {

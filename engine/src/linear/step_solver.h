@@ -26,8 +26,8 @@ struct StepSolverContext {
         direct(std::make_shared<DirectSolverContext>(pattern)),
         krylov(pattern) {}
 
-  // Bytes of a KeptFactor.
-  size_t kept_bytes();
+  // Bytes of a KeptFactor of a matrix.
+  size_t kept_bytes(bool symmetric);
 
   const BlockPattern& pattern;
   std::shared_ptr<DirectSolverContext> direct;
@@ -71,9 +71,10 @@ class StepSolver {
   // False if the matrix cannot be factorised.
   bool KeepFactorization();
 
-  // Hands the factorisation over to `kept`; clears that where there is none worth
-  // keeping (the Krylov method's is made anew in no time). Then there is none here.
-  void StoreFactor(KeptFactor* kept);
+  // Until it is called with null, every factorisation goes into `kept` too; that is
+  // clear where there is none worth keeping (the Krylov method's is made anew in no
+  // time).
+  void KeepFactorsIn(KeptFactor* kept) { direct_.KeepFactorsIn(kept); }
   // Takes such a one for the factorisation of an earlier, nearby matrix, or of the
   // same: KeepFactorization goes on with it. An empty one is no factorisation. `kept`
   // must stay as it is while it is used.

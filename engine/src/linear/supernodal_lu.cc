@@ -30,8 +30,8 @@ struct DiagonalBlock {
     double a[kPanelWidth][kPanelWidth];
     double largest = 0.0;
     for (int j = 0; j < width; ++j) {
-      for (int i = 0; i < width; ++i) {
-        a[i][j] = i < j && symmetric ? block[j + i * ld] : block[i + j * ld];
+      for (int i = symmetric ? j : 0; i < width; ++i) {
+        a[i][j] = block[i + j * ld];
         largest = std::max(largest, std::abs(a[i][j]));
       }
     }
@@ -41,8 +41,10 @@ struct DiagonalBlock {
       }
       inverse_pivots[k] = 1.0 / a[k][k];
       for (int i = k + 1; i < width; ++i) {
+        if (symmetric) a[k][i] = a[i][k];
         a[i][k] *= inverse_pivots[k];
-        for (int j = k + 1; j < width; ++j) a[i][j] -= a[i][k] * a[k][j];
+        const int end = symmetric ? i + 1 : width;
+        for (int j = k + 1; j < end; ++j) a[i][j] -= a[i][k] * a[k][j];
       }
     }
     for (int j = 0; j < width; ++j) {
@@ -75,14 +77,14 @@ struct DiagonalBlock {
 }  // namespace
 
 SupernodalLu::SupernodalLu(std::shared_ptr<const SupernodalStructure> structure)
-    : structure_(std::move(structure)),
-      lower_(new double[structure_->num_lower_values()]),
-      upper_(new double[structure_->num_upper_values()]) {}
+    : structure_(std::move(structure)) {}
 
 bool SupernodalLu::Factorize(const double* values, bool symmetric,
-                             std::vector<double>* work) {
+                             std::vector<double>* work, SupernodalPanels* copy) {
   symmetric_ = symmetric;
-  work->resize(structure_->workspace_size);
+  panels_.Allocate(*structure_, symmetric);
+  if (copy != nullptr) copy->Allocate(*structure_, symmetric);
+  work->resize(structure_->workspace_size + kTriangleColumns * structure_->max_columns);
   for (int s = 0; s < structure_->num_supernodes; ++s) {
     Assemble(s, values);
     for (int c = structure_->first_child[s]; c >= 0; c = structure_->next_sibling[c]) {
@@ -90,16 +92,32 @@ bool SupernodalLu::Factorize(const double* values, bool symmetric,
     }
     if (!FactorizeColumns(s, 0, structure_->num_columns(s))) return false;
     MakeRemainder(s, work->data());
+    if (copy != nullptr) CopyPanels(s, copy);
   }
+  if (copy != nullptr) BestDenseKernels().end_stream();
   return true;
+}
+
+// Copies what of the arrays is ready once supernode `s` is, in whole lines.
+void SupernodalLu::CopyPanels(int s, SupernodalPanels* copy) const {
+  const auto stream = [&](const std::vector<size_t>& start, const double* from,
+                          double* to) {
+    constexpr size_t kLine = SupernodalPanels::kLine;
+    const bool is_last = s + 1 == structure_->num_supernodes;
+    const size_t begin = start[s] / kLine * kLine;
+    const size_t end = (start[s + 1] + (is_last ? kLine - 1 : 0)) / kLine * kLine;
+    BestDenseKernels().stream(end - begin, from + begin, to + begin);
+  };
+  stream(structure_->value_start, panels_.lower(), copy->lower());
+  if (!symmetric_) stream(structure_->upper_start, panels_.upper(), copy->upper());
 }
 
 // The panels of `s` := the matrix's entries.
 void SupernodalLu::Assemble(int s, const double* values) {
   const int columns = structure_->num_columns(s);
   const long rows = structure_->num_rows(s), below = rows - columns;
-  double* const lower = lower_.get() + structure_->value_start[s];
-  double* const upper = upper_.get() + structure_->upper_start[s];
+  double* const lower = LowerPanel(s);
+  double* const upper = UpperPanel(s);
   std::fill_n(lower, rows * columns, 0.0);
   if (!symmetric_) std::fill_n(upper, below * columns, 0.0);
   for (int k = structure_->pair_start[s]; k < structure_->pair_start[s + 1]; ++k) {
@@ -131,8 +149,8 @@ void SupernodalLu::AddToPanels(int child, int s, const double* remainder) {
   const long size = structure_->num_below(child);
   const int columns = structure_->num_columns(s);
   const long rows = structure_->num_rows(s), below = rows - columns;
-  double* const lower = lower_.get() + structure_->value_start[s];
-  double* const upper = upper_.get() + structure_->upper_start[s] - columns;
+  double* const lower = LowerPanel(s);
+  double* const upper = UpperPanel(s);
   using Run = SupernodalStructure::Run;
   const Run* const begin = structure_->runs.data() + structure_->run_start[child];
   const Run* const end = structure_->runs.data() + structure_->run_start[child + 1];
@@ -142,7 +160,7 @@ void SupernodalLu::AddToPanels(int child, int s, const double* remainder) {
       const double* column = remainder + j * size;
       const double* row = remainder + j;
       double* l = lower + (run->place + k) * rows;
-      double* u = upper + (run->place + k) * below;
+      double* u = symmetric_ ? nullptr : upper + (run->place + k) * below - columns;
       for (const Run* other = symmetric_ ? run : begin; other != end; ++other) {
         const long first = other->first;
         for (int i = 0; i < other->length; ++i) {
@@ -163,19 +181,37 @@ void SupernodalLu::MakeRemainder(int s, double* work) {
   const long rows = structure_->num_rows(s);
   const int below = static_cast<int>(rows) - columns;
   if (below == 0) return;
-  const double* const lower = lower_.get() + structure_->value_start[s] + columns;
-  const double* const upper = upper_.get() + structure_->upper_start[s];
   double* const remainder = work + structure_->remainder_start[s];
-  // Column by column as much of it as there is below the diagonal, if symmetric.
-  const int width = symmetric_ ? kTriangleColumns : below;
-  for (int j = 0; j < below; j += width) {
-    const int i = symmetric_ ? j : 0;
+  if (symmetric_) {
+    MakeSymmetricRemainder(s, work + structure_->workspace_size, remainder);
+  } else {
     BestDenseKernels().subtract_product(
-        /*overwrite=*/true, below - i, std::min(width, below - j), columns, lower + i,
-        rows, upper + j, 1, below, remainder + i + static_cast<long>(j) * below, below);
+        /*overwrite=*/true, below, below, columns, LowerPanel(s) + columns, rows,
+        UpperPanel(s), 1, below, remainder, below);
   }
   for (int c = structure_->first_child[s]; c >= 0; c = structure_->next_sibling[c]) {
     AddToRemainder(c, s, work + structure_->remainder_start[c], remainder);
+  }
+}
+
+// The part of -L21 D L21^T on and below the diagonal, some columns at a time; `scaled`
+// receives the rows of L21 D that they need.
+void SupernodalLu::MakeSymmetricRemainder(int s, double* scaled, double* remainder) {
+  const int columns = structure_->num_columns(s);
+  const long rows = structure_->num_rows(s), below = rows - columns;
+  const double* const lower = LowerPanel(s);
+  for (long j = 0; j < below; j += kTriangleColumns) {
+    const int count = static_cast<int>(std::min<long>(kTriangleColumns, below - j));
+    const double* const l21 = lower + columns + j;
+    for (int p = 0; p < columns; ++p) {
+      const double pivot = lower[p + p * rows];
+      for (int i = 0; i < count; ++i) {
+        scaled[i + p * kTriangleColumns] = pivot * l21[i + p * rows];
+      }
+    }
+    BestDenseKernels().subtract_product(
+        /*overwrite=*/true, static_cast<int>(below - j), count, columns, l21, rows,
+        scaled, 1, kTriangleColumns, remainder + j + j * below, below);
   }
 }
 
@@ -217,8 +253,8 @@ void SupernodalLu::UpdateColumns(int s, int begin, int middle, int end) {
   const int columns = structure_->num_columns(s);
   const int rows = structure_->num_rows(s), below = rows - columns;
   const int terms = middle - begin, width = end - middle;
-  double* const lower = lower_.get() + structure_->value_start[s];
-  double* const upper = upper_.get() + structure_->upper_start[s];
+  double* const lower = LowerPanel(s);
+  double* const upper = UpperPanel(s);
   const auto at = [&](int i, int j) { return lower + i + static_cast<long>(j) * rows; };
   const DenseKernels& kernels = BestDenseKernels();
   kernels.subtract_product(false, rows - middle, width, terms, at(middle, begin), rows,
@@ -234,8 +270,7 @@ void SupernodalLu::UpdateColumns(int s, int begin, int middle, int end) {
 bool SupernodalLu::FactorizePanel(int s, int begin, int end) {
   const int columns = structure_->num_columns(s), width = end - begin;
   const long rows = structure_->num_rows(s), below = rows - columns;
-  double* const l = lower_.get() + structure_->value_start[s] + begin * rows;
-  double* const u = upper_.get() + structure_->upper_start[s] + begin * below;
+  double* const l = LowerPanel(s) + begin * rows;
   double* const right = l + begin + width * rows;  // U11 beyond the diagonal block
   DiagonalBlock diagonal;
   if (!diagonal.Factorize(l + begin, rows, width, symmetric_)) return false;
@@ -244,30 +279,16 @@ bool SupernodalLu::FactorizePanel(int s, int begin, int end) {
                       diagonal.inverse_pivots, l + end, rows);
   if (!symmetric_) {
     diagonal.SolveRows(width, columns - end, right, rows);
-    kernels.solve_right(static_cast<int>(below), width, diagonal.lower, kOnes, u,
-                        below);
+    kernels.solve_right(static_cast<int>(below), width, diagonal.lower, kOnes,
+                        UpperPanel(s) + begin * below, below);
     return true;
   }
   for (int j = 0; j < width; ++j) {
     const double pivot = diagonal.upper[j + kPanelWidth * j];
     const double* column = l + j * rows;
     for (int i = end; i < columns; ++i) right[j + (i - end) * rows] = pivot * column[i];
-    for (long i = 0; i < below; ++i) u[i + j * below] = pivot * column[columns + i];
   }
   return true;
-}
-
-SupernodalFactor SupernodalLu::factor() const {
-  SupernodalFactor factor;
-  factor.num_supernodes = structure_->num_supernodes;
-  factor.first_column = structure_->first_column.data();
-  factor.row_start = structure_->row_start.data();
-  factor.row_indices = structure_->rows.data();
-  factor.value_start = structure_->value_start.data();
-  factor.upper_start = structure_->upper_start.data();
-  factor.lower = lower_.get();
-  factor.upper = upper_.get();
-  return factor;
 }
 
 }  // namespace dpe

@@ -14,14 +14,16 @@
 // U12^T lie each by itself. Columns are split in halves: the left half is factorised,
 // the right one updated, then factorised.
 //
-// Of a symmetric matrix U = D L^T, D the pivots: then U is L scaled, and of remainders
-// only the lower triangle is made, which halves the work.
+// Of a symmetric matrix U = D L^T, D the pivots: then U12^T = L21 D is made where it is
+// needed and not kept, and of remainders only the lower triangle is made. That halves
+// the work and the memory.
 #ifndef DPE_ENGINE_LINEAR_SUPERNODAL_LU_H_
 #define DPE_ENGINE_LINEAR_SUPERNODAL_LU_H_
 
 #include <memory>
 #include <vector>
 
+#include "linear/supernodal_panels.h"
 #include "linear/supernodal_solve.h"
 #include "linear/supernodal_structure.h"
 
@@ -36,27 +38,36 @@ class SupernodalLu {
   //
   // @param symmetric  the matrix is symmetric; its upper triangle is then not read
   // @param work       resized as needed; may be shared by factorisations that take
-  // turns
+  //                   turns
+  // @param copy       if not null, receives the same factors
   // @return           false if a pivot is zero or not finite
-  bool Factorize(const double* values, bool symmetric, std::vector<double>* work);
+  bool Factorize(const double* values, bool symmetric, std::vector<double>* work,
+                 SupernodalPanels* copy = nullptr);
 
   // For SolveSupernodal; valid until the next factorisation.
-  SupernodalFactor factor() const;
+  SupernodalFactor factor() const { return panels_.factor(*structure_); }
 
  private:
+  void CopyPanels(int s, SupernodalPanels* copy) const;
   void Assemble(int s, const double* values);
   void AddToPanels(int child, int s, const double* remainder);
   void MakeRemainder(int s, double* work);
+  void MakeSymmetricRemainder(int s, double* scaled, double* remainder);
   void AddToRemainder(int child, int s, const double* in, double* remainder);
   bool FactorizeColumns(int s, int begin, int end);
   void UpdateColumns(int s, int begin, int middle, int end);
   bool FactorizePanel(int s, int begin, int end);
+  double* LowerPanel(int s) const {
+    return panels_.lower() + structure_->value_start[s];
+  }
+  // The panel of U^T; null if symmetric.
+  double* UpperPanel(int s) const {
+    return symmetric_ ? nullptr : panels_.upper() + structure_->upper_start[s];
+  }
 
   std::shared_ptr<const SupernodalStructure> structure_;
   bool symmetric_ = false;
-  // Panels of L, with U11, and of U^T. Every factorisation writes them all, so they are
-  // not filled before.
-  std::unique_ptr<double[]> lower_, upper_;
+  SupernodalPanels panels_;
 };
 
 }  // namespace dpe

@@ -135,12 +135,18 @@ void SolveSupernodal(const SupernodalFactor& factor, std::vector<double>* work,
     double* t = work->data();
     std::copy_n(x + first, columns, t);
     std::fill(t + columns, t + rows, 0.0);
-    if (factor.is_transposed) {
+    if (factor.upper == nullptr) {
+      ForwardLower(lower, rows, columns, t);
+    } else if (factor.is_transposed) {
       ForwardUpper(lower, factor.upper + factor.upper_start[s], rows, columns, t);
     } else {
       ForwardLower(lower, rows, columns, t);
     }
-    std::copy_n(t, columns, x + first);
+    if (factor.upper == nullptr) {
+      for (int i = 0; i < columns; ++i) x[first + i] = t[i] / lower[i + long{i} * rows];
+    } else {
+      std::copy_n(t, columns, x + first);
+    }
     for (int i = columns; i < rows; ++i) x[row[i]] += t[i];
   }
   for (int s = factor.num_supernodes - 1; s >= 0; --s) {
@@ -153,7 +159,7 @@ void SolveSupernodal(const SupernodalFactor& factor, std::vector<double>* work,
     double* t = work->data();
     std::copy_n(x + first, columns, t);
     for (int i = columns; i < rows; ++i) t[i] = x[row[i]];
-    if (factor.is_transposed) {
+    if (factor.is_transposed || factor.upper == nullptr) {
       BackwardLower(lower, rows, columns, t);
     } else {
       BackwardUpper(lower, factor.upper + factor.upper_start[s], rows, columns, t);

@@ -13,7 +13,8 @@
 namespace dpe {
 
 // The arrays of a supernodal factor, see supernodal_structure.h: the panels of L (whose
-// diagonal is 1) with the own parts of U, and those of U^T.
+// diagonal is 1) with the own parts of U, and those of U^T. A symmetric matrix has none
+// of the latter: U = D L^T, with the pivots D on the diagonal of the own parts.
 struct SupernodalFactor {
   int num_supernodes = 0;
   const int* first_column = nullptr;
@@ -22,7 +23,7 @@ struct SupernodalFactor {
   const size_t* value_start = nullptr;
   const size_t* upper_start = nullptr;
   const double* lower = nullptr;
-  const double* upper = nullptr;
+  const double* upper = nullptr;  // null if symmetric
 
   bool is_transposed = false;  // stands for A^T = U^T L^T
 

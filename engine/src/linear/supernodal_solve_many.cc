@@ -94,10 +94,22 @@ class PanelSolve {
   int rows_, columns_, count_;
 };
 
+// x := D^{-1} x for the own columns of supernode s, of a symmetric matrix.
+void DivideByPivots(const SupernodalFactor& factor, int s, int count, double* x) {
+  const long rows = factor.row_start[s + 1] - factor.row_start[s];
+  const int columns = factor.first_column[s + 1] - factor.first_column[s];
+  const double* pivot = factor.lower + factor.value_start[s];
+  for (int j = 0; j < columns; ++j, pivot += rows + 1, x += count) {
+    const double inverse = 1.0 / *pivot;
+    for (int c = 0; c < count; ++c) x[c] *= inverse;
+  }
+}
+
 }  // namespace
 
 void SolveSupernodalMany(const SupernodalFactor& factor, int count,
                          std::vector<double>* work, double* x) {
+  const bool symmetric = factor.upper == nullptr;
   const auto panel = [&](bool of_upper, int s) {
     const int rows = factor.row_start[s + 1] - factor.row_start[s];
     const int columns = factor.first_column[s + 1] - factor.first_column[s];
@@ -117,11 +129,11 @@ void SolveSupernodalMany(const SupernodalFactor& factor, int count,
     const int columns = factor.first_column[s + 1] - factor.first_column[s];
     const int begin = factor.row_start[s] + columns, end = factor.row_start[s + 1];
     double* own = row_of(factor.first_column[s]);
-    const PanelSolve lower = panel(factor.is_transposed, s);
+    const PanelSolve lower = panel(factor.is_transposed && !symmetric, s);
     lower.Forward(own);
-    if (begin == end) continue;
     work->resize(static_cast<size_t>(end - begin) * count);
-    lower.UpdateBelow(own, work->data());
+    if (begin < end) lower.UpdateBelow(own, work->data());
+    if (symmetric) DivideByPivots(factor, s, count, own);
     const double* in = work->data();
     for (int k = begin; k < end; ++k, in += count) {
       double* out = row_of(factor.row_indices[k]);
@@ -132,7 +144,7 @@ void SolveSupernodalMany(const SupernodalFactor& factor, int count,
     const int columns = factor.first_column[s + 1] - factor.first_column[s];
     const int begin = factor.row_start[s] + columns, end = factor.row_start[s + 1];
     double* own = row_of(factor.first_column[s]);
-    const PanelSolve upper = panel(!factor.is_transposed, s);
+    const PanelSolve upper = panel(!factor.is_transposed && !symmetric, s);
     if (begin < end) {
       work->resize(static_cast<size_t>(end - begin) * count);
       double* out = work->data();

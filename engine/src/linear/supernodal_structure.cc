@@ -46,6 +46,7 @@ SupernodalStructure::SupernodalStructure(const BlockPattern& pattern,
   upper_start.push_back(0);
   for (int s = 0; s < num_supernodes; ++s) {
     assert(num_columns(s) % 3 == 0 && num_rows(s) % 3 == 0);
+    max_columns = std::max(max_columns, num_columns(s));
     value_start.push_back(value_start.back() +
                           static_cast<size_t>(num_rows(s)) * num_columns(s));
     upper_start.push_back(upper_start.back() +

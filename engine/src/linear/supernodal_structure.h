@@ -6,9 +6,10 @@
 // rows[row_start[s]] ... rows[row_start[s + 1] - 1], its own columns first. Its
 // *panels* are dense column-major arrays: that of L, rows x columns at value_start[s],
 // which has its own part of U above the diagonal, and that of U^T, with the rows below
-// alone, at upper_start[s]. The rows below its own columns are updated by it; the
-// updates are gathered in a square *remainder* and added to the parent: the supernode
-// of the first such row (multifrontal method, Duff & Reid 1983; Liu 1992).
+// alone, at upper_start[s]; factors of symmetric matrices do without the latter. The
+// rows below its own columns are updated by it; the updates are gathered in a square
+// *remainder* and added to the parent: the supernode of the first such row
+// (multifrontal method, Duff & Reid 1983; Liu 1992).
 //
 // The three unknowns of a node are coupled to the same nodes, so they are always in one
 // supernode, and rows come in threes.
@@ -45,12 +46,15 @@ struct SupernodalStructure {
   int num_columns(int s) const { return first_column[s + 1] - first_column[s]; }
   int num_rows(int s) const { return row_start[s + 1] - row_start[s]; }
   int num_below(int s) const { return num_rows(s) - num_columns(s); }
-  // Of all panels of L, of U^T, and both.
+  // Of all panels of L, of U^T, and those that the factors of a matrix have.
   size_t num_lower_values() const { return value_start.back(); }
   size_t num_upper_values() const { return upper_start.back(); }
-  size_t num_values() const { return num_lower_values() + num_upper_values(); }
+  size_t num_values(bool symmetric) const {
+    return num_lower_values() + (symmetric ? 0 : num_upper_values());
+  }
 
   int num_supernodes = 0;
+  int max_columns = 0;  // of a supernode
   std::vector<int> first_column, row_start, rows;
   std::vector<size_t> value_start, upper_start;
 

@@ -42,7 +42,7 @@ class Attacher {
       if (place.object < 0) continue;
       const double frame = std::round(sample.time);
       if (sample.time > kMaxFrame) {
-        Fail(sample, "is at frame " + NumberText(sample.time) + "; accepted is 0 to " +
+        Fail(sample, "is at frame " + NumberField(sample.time) + "; accepted is 0 to " +
                          std::to_string(kMaxFrame));
       }
       last_frame = std::max(last_frame, frame);
@@ -98,7 +98,7 @@ class Attacher {
   [[noreturn]] void FailTwice(const CaptureSample& sample, const CaptureSample& earlier,
                               double frame) const {
     Fail(sample,
-         "frame " + NumberText(frame) + ", " + NameOf(sample.marker) +
+         "frame " + NumberField(frame) + ", " + NameOf(sample.marker) +
              " was given before" +
              (earlier.marker == sample.marker ? "" : " as " + NameOf(earlier.marker)) +
              ", in line " + std::to_string(earlier.line));
@@ -148,7 +148,7 @@ Observations AttachCapture(const Capture& capture, const Scene& scene,
                            std::vector<std::string>* warnings) {
   if (!std::isfinite(options.max_distance) || options.max_distance < 0.0) {
     throw SceneError(capture.path + ": the largest distance of a marker is " +
-                     NumberText(options.max_distance) +
+                     NumberField(options.max_distance) +
                      "; accepted is a finite number > 0 (m), or 0 for the default");
   }
   return Attacher(capture, scene, PlaceMarkers(capture, scene, options, warnings))

@@ -13,7 +13,7 @@ namespace {
 void RequireNotNegative(const Capture& capture, const char* what, double value) {
   if (std::isfinite(value) && value >= 0.0) return;
   throw SceneError(
-      capture.path + ": the " + what + " " + NumberText(value) +
+      capture.path + ": the " + what + " " + NumberField(value) +
       " is not accepted; expected a finite number > 0, or 0 for the default");
 }
 
@@ -63,7 +63,7 @@ void ToSceneUnits(const CaptureOptions& options, double frame_length,
   for (CaptureSample& sample : capture->samples) {
     if (sample.time < origin) {
       FailAtSample(*capture, sample,
-                   "the time is " + NumberText(sample.time) +
+                   "the time is " + NumberField(sample.time) +
                        "; accepted are times from 0, the initial state");
     }
     sample.time = (sample.time - origin) * frames_per_unit;

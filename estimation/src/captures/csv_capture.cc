@@ -135,7 +135,7 @@ class CsvReader {
     if (own.line > 0 && latest.time > sample.time) {
       FailAtLine(path_, line_,
                  "time is '" + Excerpt(fields_[0]) + "' after " +
-                     NumberText(latest.time) + " in line " +
+                     NumberField(latest.time) + " in line " +
                      std::to_string(latest.line) +
                      "; accepted are times that do not go backwards");
     }

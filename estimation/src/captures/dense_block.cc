@@ -55,7 +55,7 @@ void AppendDenseSamples(const DenseBlock& block, const std::string& content,
         if (std::isfinite(sample.position[c])) continue;
         FailAtByte(block.path, place[c],
                    "frame " + std::to_string(f) + ", vertex " + std::to_string(v) +
-                       ": " + "xyz"[c] + " is " + NumberText(sample.position[c]) +
+                       ": " + "xyz"[c] + " is " + NumberField(sample.position[c]) +
                        "; accepted is a finite number, or three nan where nan is "
                        "declared to mean that a vertex was not seen");
       }

@@ -181,16 +181,16 @@ class MarkerPlacer {
                              ? options_.max_distance
                              : 0.5 * MeanEdgeLength(scene_.objects[object]);
     if (!(nearest.distance <= limit)) {
-      Fail(sample, NameOf(m) + " is " + NumberText(nearest.distance) +
+      Fail(sample, NameOf(m) + " is " + NumberField(nearest.distance) +
                        " m from the cloth where it is first seen, at frame " +
-                       NumberText(sample.time) + "; accepted is at most " +
-                       NumberText(limit) + " m" +
+                       NumberField(sample.time) + "; accepted is at most " +
+                       NumberField(limit) + " m" +
                        (options_.max_distance > 0.0
                             ? ""
                             : ", half the mean length of the triangles' edges"));
     }
     if (sample.time > kFrameTolerance) {
-      Warn(NameOf(m) + " is first seen at frame " + NumberText(sample.time) +
+      Warn(NameOf(m) + " is first seen at frame " + NumberField(sample.time) +
            "; it was attached as if the cloth had not moved before that");
     }
     const auto& triangle = scene_.objects[object].triangles[nearest.triangle];

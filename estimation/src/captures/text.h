@@ -58,7 +58,7 @@ void SplitWords(std::string_view text, std::vector<std::string_view>* words);
 // The shortest text that reads back to the same double.
 void AppendNumber(double value, std::string* text);
 
-inline std::string NumberText(double value) {
+inline std::string NumberField(double value) {
   std::string text;
   AppendNumber(value, &text);
   return text;

@@ -154,7 +154,7 @@ class TrcReader {
     }
     if (!rows_.empty() && row.time <= rows_.back().time) {
       Fail("Time is '" + Excerpt(fields_[1]) + "' after " +
-           NumberText(rows_.back().time) +
+           NumberField(rows_.back().time) +
            "; accepted are times that do not go backwards or stand still");
     }
     for (int m = 0; m < num_markers_; ++m) ReadMarker(m, &fields_[2 + 3 * m]);

@@ -3,6 +3,7 @@
 #define DPE_ESTIMATION_ESTIMATION_JOB_H_
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,39 +19,51 @@
 namespace dpe {
 
 struct EstimationJob {
-  std::string scene_path;  // empty: the scene is made of the target
+  // One per capture, or one for all targets; empty: each target's is made of it.
+  std::vector<std::string> scene_paths;
   SceneFromTargetOptions scene_from_target;
   // What to estimate, as ApplyAutoSettings reads it; empty: as the scene says.
   std::string settings;
   // More to estimate: "damping", "drag", "wind", "initial_velocity", of all objects
   // that have it.
   std::vector<std::string> estimate;
-  // What to fit, in any format that ReadCapture reads; empty: the motion that the
-  // scene's own parameters make, which then serve to report the deviation and for
-  // nothing else.
-  std::string target_path;
+  // What to fit, one per capture, in any format that ReadCapture reads; empty: the
+  // motions that the scenes' own parameters make, which then serve to report the
+  // deviation and for nothing else.
+  std::vector<std::string> target_paths;
   TargetOptions target;
   TrajectoryFormat trajectory_format = TrajectoryFormat::kCsv;  // of the result
-  int num_frames = 0;             // to fit; <= 0: as the scene says, at most the file's
+  // To fit, of each capture as many as it has; <= 0: as its scene says, at most the
+  // file's.
+  int num_frames = 0;
   int num_validation_frames = 0;  // to compare after the fit; 0: none
   double noise_sigma = 0.0;       // m, added to the target, see AddNoise
-  std::uint64_t noise_seed = 0;
+  std::uint64_t noise_seed = 0;   // of the first capture; the others' follow from it
   // m, of the noise on each coordinate where the target names none; 0: noise_sigma
   double sigma = 0.0;
   std::string output_dir;  // empty: results/<scene>_<settings>
   EstimatorOptions options;
 };
 
-// What a job reads.
-struct EstimationInput {
-  Scene scene;  // with the settings applied
-  std::vector<std::string> warnings;
-  std::vector<int> auto_objects;  // whose settings SelectModel is to choose
-  Observations target;            // the frames to fit, with noise
-  Observations reference;         // all known frames, without added noise
-  bool truth_is_known = false;    // the scene's values made the target
+// One capture as a job reads it.
+struct CaptureInput {
+  std::string scene_path;   // empty: made of the target
+  std::string target_path;  // empty: the scene's own motion
+  Scene scene;              // with the settings applied
+  Observations target;      // the frames to fit, with noise
+  Observations reference;   // all known frames, without added noise
   int num_frames = 0;
   int num_validation_frames = 0;  // at most what the reference holds
+};
+
+// What a job reads.
+struct EstimationInput {
+  std::vector<CaptureInput> captures;
+  std::vector<std::string> warnings;
+  std::vector<int> auto_objects;  // whose settings are to be chosen
+  bool truth_is_known = false;    // the scenes' values made the targets
+
+  std::vector<const Scene*> scenes() const;
 };
 
 struct Validation {
@@ -59,38 +72,56 @@ struct Validation {
   // m, of the frames that were not fitted alone; NaN without any, or if the rollout
   // failed
   double held_out_rms = 0.0;
+  PositionErrors errors, held_out_errors;  // what they are of
   Trajectory trajectory;  // of the fitted scene, as many frames as fitted or validated
   std::string note;       // why there is no RMS
 };
 
-// Reads scene and target; makes the target and its noise.
-// @throws SceneError for bad input, and if the scene's own motion cannot be simulated
+// Reads scenes and targets; makes targets and their noise.
+// @throws SceneError for bad input, as many targets as there are not scenes for, scenes
+//         that are not of the same cloths, and if a scene's own motion cannot be
+//         simulated
 EstimationInput LoadEstimationInput(const EstimationJob& job);
+
+// Estimate with what was read; where settings are to be chosen (input->auto_objects),
+// SelectModel, after which the scenes have the chosen ones.
+// @param started    told of each model that is about to be fitted, if set
+// @param selection  receives how the settings were chosen; not touched where they are
+//                   not to be
+EstimatorSummary RunEstimation(const EstimatorOptions& options,
+                               const std::function<void(const ModelFit&)>& started,
+                               EstimationInput* input, ModelSelection* selection);
 
 // The job's output folder, created if it is missing. Where the settings are to be
 // chosen, its name says so: results/<scene>_auto.
 // @throws SceneError if it cannot be
-std::string PrepareOutputDir(const EstimationJob& job, const Scene& scene);
+std::string PrepareOutputDir(const EstimationJob& job, const EstimationInput& input);
 
-// Simulates the fitted scene beyond the fit and compares with the reference.
-Validation Validate(const EstimatorSummary& summary, const EstimationInput& input,
-                    int num_threads);
+// Simulates the fitted scenes beyond the fit and compares with the references; one per
+// capture.
+std::vector<Validation> Validate(const EstimatorSummary& summary,
+                                 const EstimationInput& input, int num_threads);
+
+// All of them as one: the frames of the longest, the RMS over all (NaN if one is
+// missing), without trajectory.
+Validation Together(const std::vector<Validation>& validations);
 
 // Writes <scene>_<settings>_optimized.txt, trajectory.csv (or .pc2, .npy, or
-// trajectory_*.obj, see trajectory_format) and report.json, each
-// atomically; only the report if no point could be simulated.
+// trajectory_*.obj, see trajectory_format) and report.json, each atomically; only the
+// report if no point could be simulated. Of several captures scene_1.txt,
+// trajectory_1.csv (or trajectory_1_*.obj), scene_2.txt, ...
 // @param selection  how the settings were chosen; null: they were not
 // @return the paths written
 std::vector<std::string> WriteResults(const EstimationJob& job,
                                       const EstimationInput& input,
                                       const EstimatorSummary& summary,
-                                      const Validation& validation,
+                                      const std::vector<Validation>& validations,
                                       const std::string& output_dir,
                                       const ModelSelection* selection = nullptr);
 
 // "<scene>_<settings>", the scene being its file name without extension, or that of the
-// target it was made of.
-std::string JobName(const EstimationJob& job, const Scene& scene);
+// target it was made of, with "_and_2_more" after it where there are others.
+std::string JobName(const EstimationJob& job, const EstimationInput& input);
 
 }  // namespace dpe
 

@@ -82,8 +82,8 @@ struct ModelCandidate {
 };
 
 struct ModelSelection {
-  std::string criterion;  // in words
-  int num_frames = 0;
+  std::string criterion;      // in words
+  int num_frames = 0;         // of the longest capture
   int num_fitted_frames = 0;  // by the candidates; the others were held out
   std::vector<ModelCandidate> candidates;
   std::string chosen;  // settings
@@ -98,7 +98,8 @@ struct SelectedModel {
   EstimatorSummary summary;
 };
 
-// Chooses the stiffness mode of `selection.objects` and fits.
+// Chooses the stiffness mode of `selection.objects` and fits, to one capture or to
+// several of one cloth (of each of which a third is held out).
 //
 // A candidate is started from the best so far, or from where `options` say if the
 // motion is closer to the target there (InitMethod::kAuto: by inverse dynamics only,
@@ -108,6 +109,9 @@ struct SelectedModel {
 // @throws SceneError as Estimate, if there are too few frames, nothing is observed in
 //         the held-out ones, or a checkpoint is asked for
 SelectedModel SelectModel(const Scene& scene, const Observations& observations,
+                          const EstimatorOptions& options,
+                          const ModelSelectionOptions& selection);
+SelectedModel SelectModel(const std::vector<CapturedMotion>& captures,
                           const EstimatorOptions& options,
                           const ModelSelectionOptions& selection);
 

@@ -3,6 +3,7 @@
 #define DPE_ESTIMATION_REPORT_IO_H_
 
 #include <string>
+#include <vector>
 
 #include "dpe/estimation/estimation_job.h"
 
@@ -15,9 +16,15 @@ namespace dpe {
 // wall_time_s, initial_cost and final_cost (m^2), initial_rms_position_error_m,
 // rms_position_error_m, validation {frames, rms_position_error_m, note},
 // parameter_deviation_percent, noise_sigma_m, seed, and
-// parameters [{object, kind, mode, unit, values, true_values, elements, inactive}]:
-// `elements` names the element of each value in mode L, `inactive` the elements without
-// influence on the motion.
+// parameters [{object, capture, kind, mode, unit, values, true_values, elements,
+// inactive}]: `elements` names the element of each value in mode L, `inactive` the
+// elements without influence on the motion. `capture` (1, 2, ...) is whose alone the
+// parameters are, null for those of all.
+//
+// captures [{scene, target, frames, rms_position_error_m, sigma_m, growth (of its
+// sensitivity), validation}]: what is of one capture. With several, scene, target and
+// sigma_m of the report itself are null, frames are those of the longest, and errors
+// and validation are over all.
 //
 // @param selection  null: the settings were given. Otherwise also model_selection
 //                   {criterion, frames, fitted_frames, held_out_frames, candidates
@@ -25,7 +32,8 @@ namespace dpe {
 //                   fit_rms_m, held_out_rms_m, compared_with, weight, weight_deviation,
 //                   kept, reason}], chosen, reason}, see ModelCandidate
 std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
-                         const EstimatorSummary& summary, const Validation& validation,
+                         const EstimatorSummary& summary,
+                         const std::vector<Validation>& validations,
                          const ModelSelection* selection = nullptr);
 
 }  // namespace dpe
