@@ -352,6 +352,10 @@ class ModelSelector {
     }
     EstimatorOptions warm = options;
     warm.init = InitMethod::kScene;
+    // The start has seen more than a short horizon shows; with one unknown per element
+    // a short horizon would be fitted to its noise, from which longer ones do not
+    // recover.
+    if (warm.horizon == Horizon::kAuto) warm.horizon = Horizon::kFull;
     warm.init_perturbation = 0.0;
     return Estimate(In(scenes, captures), warm);
   }
@@ -369,8 +373,6 @@ class ModelSelector {
       return;
     }
     EstimatorOptions options = OptionsNow();
-    // The candidate's fit was the horizon before this one.
-    if (options.horizon == Horizon::kAuto) options.horizon = Horizon::kFull;
     const bool stops_early = HasElements(best_.scenes) && !best_.forecast.is_exact;
     if (stops_early) StopEarly(&options);
     Announce(Row(best_.scenes), num_frames_, true);
@@ -380,9 +382,8 @@ class ModelSelector {
     if (stops_early && result_.summary.usable()) {
       result_.summary.notes.push_back(
           "the fit was ended, as the candidate's was, where an iteration lowered the "
-          "cost "
-          "by less than 1 %: with one unknown per element more would fit the noise; a "
-          "fit with these settings alone goes on");
+          "cost by less than 1 %: with one unknown per element more would fit the "
+          "noise; a fit with these settings alone goes on");
     }
   }
 

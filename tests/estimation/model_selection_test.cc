@@ -140,7 +140,7 @@ TEST(ModelSelectionTest, NoiseAsksForNoMoreThanTheTruth) {
 }
 
 TEST(ModelSelectionTest, ALargeSmoothVariationIsSeenThroughTheNoise) {
-  for (unsigned seed = 1; seed <= 2; ++seed) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
     const Scene truth = Truth('L', 6, seed);
     const SelectedModel model = Select(test::WithEstimatesOverwritten(truth, 3.0),
                                        Capture(truth, 60, 30, static_cast<int>(seed)));
