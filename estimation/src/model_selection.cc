@@ -5,12 +5,11 @@
 #include <sstream>
 #include <utility>
 
-#include "dpe/engine/parameters.h"
 #include "dpe/estimation/inverse_dynamics.h"
-#include "dpe/estimation/joint_layout.h"
 #include "fit_setup.h"
 #include "forecast.h"
 #include "forecast_weight.h"
+#include "model_scenes.h"
 #include "score_test.h"
 #include "stop_control.h"
 
@@ -46,49 +45,6 @@ bool HasResult(const EstimatorSummary& summary) {
   return std::isfinite(summary.final_cost);
 }
 
-using Captures = std::vector<CapturedMotion>;
-using Scenes = std::vector<Scene>;
-
-Scenes ScenesOf(const Captures& captures) {
-  Scenes scenes;
-  for (const CapturedMotion& capture : captures) scenes.push_back(capture.scene);
-  return scenes;
-}
-
-Scenes FittedScenes(const EstimatorSummary& summary) {
-  Scenes scenes;
-  for (const CaptureSummary& capture : summary.captures)
-    scenes.push_back(capture.scene);
-  return scenes;
-}
-
-void SetMode(int object, ParameterMode mode, Scenes* scenes) {
-  for (Scene& scene : *scenes) scene.objects[object].stiffness_mode = mode;
-}
-
-// The captures in these scenes.
-Captures In(const Scenes& scenes, Captures captures) {
-  for (size_t c = 0; c < captures.size(); ++c) captures[c].scene = scenes[c];
-  return captures;
-}
-
-// The captures with the modes of `modes`.
-Captures WithModesOf(const Scenes& modes, Captures captures) {
-  for (size_t c = 0; c < captures.size(); ++c) {
-    Scene& scene = captures[c].scene;
-    for (size_t i = 0; i < scene.objects.size(); ++i) {
-      scene.objects[i].stiffness_mode = modes[c].objects[i].stiffness_mode;
-    }
-  }
-  return captures;
-}
-
-ParameterLayout LayoutOf(const Scenes& scenes) {
-  std::vector<const Scene*> pointers;
-  for (const Scene& scene : scenes) pointers.push_back(&scene);
-  return JointLayout(pointers, /*own_wind=*/true).layout();
-}
-
 void Check(const EstimatorOptions& options, int num_frames) {
   if (!options.checkpoint_path.empty() || !options.resume_path.empty()) {
     throw SceneError(
@@ -105,13 +61,6 @@ void Check(const EstimatorOptions& options, int num_frames) {
 int NumFittedFrames(int num_frames, double held_out_fraction) {
   const int held_out = static_cast<int>(std::lround(num_frames * held_out_fraction));
   return num_frames - std::clamp(held_out, 1, num_frames - 3);
-}
-
-bool HasElements(const Scenes& scenes) {
-  const ParameterLayout layout = LayoutOf(scenes);
-  return std::any_of(
-      layout.blocks().begin(), layout.blocks().end(),
-      [](const ParameterBlock& block) { return block.mode == ParameterMode::kLocal; });
 }
 
 void StopEarly(EstimatorOptions* options) {
