@@ -10,8 +10,10 @@
 #include "fit_problem.h"
 #include "fit_setup.h"
 #include "fit_uncertainty.h"
+#include "held_out_weights.h"
 #include "horizon.h"
 #include "optimizers.h"
+#include "prior_rows.h"
 #include "starting_point.h"
 #include "stop_control.h"
 #include "summary_blocks.h"
@@ -159,13 +161,15 @@ class Fit {
     summary_.initial_rms = fit_.best_rms();
   }
 
-  // A start from inverse dynamics has seen the whole motion; a handful of parameters is
+  // A start from inverse dynamics has seen the whole motion, one that was given is
+  // somebody's answer; a handful of parameters is
   // checked against trial values afterwards.
   bool ShouldGrow() {
     if (options_.horizon != Horizon::kAuto) {
       return options_.horizon == Horizon::kGrow;
     }
-    return use_lm_ && !HasFewParameters() && start_.init != "inverse_dynamics";
+    return use_lm_ && !HasFewParameters() && start_.init != "inverse_dynamics" &&
+           start_.init != "given";
   }
 
   // @param resumed  where to continue; null: at the start
@@ -192,7 +196,7 @@ class Fit {
   }
 
   void PerturbStart() {
-    if (options_.init_perturbation == 0.0) return;
+    if (options_.init_perturbation == 0.0 || start_.init == "given") return;
     std::mt19937_64 generator(options_.seed);
     std::normal_distribution<double> normal;
     Eigen::VectorXd parameters = evaluator()->map().ToParameters(start_.coordinates);
@@ -207,8 +211,8 @@ class Fit {
     const bool is_done = start_.init == "inverse_dynamics";
     if (is_done && options_.init_perturbation == 0.0) return;
     Eigen::VectorXd parameters = evaluator()->map().ToParameters(start_.coordinates);
-    const std::vector<std::string> notes =
-        NormaliseScale(scene_, problem()->layout(), FreeMass(scene_), &parameters);
+    const std::vector<std::string> notes = NormaliseScale(
+        scene_, problem()->layout(), MassToKeep(scene_, options_.priors), &parameters);
     if (notes.empty()) return;
     if (!is_done) {
       summary_.notes.insert(summary_.notes.end(), notes.begin(), notes.end());
@@ -281,9 +285,14 @@ class Fit {
     summary_.parameters = evaluator()->map().ToParameters(
         has_result ? evaluator()->best_coordinates() : problem()->coordinates());
     // Steps of the optimiser may have moved along the scale, which costs nothing.
-    NormaliseScale(scene_, problem()->layout(), FreeMass(scene_), &summary_.parameters);
+    NormaliseScale(scene_, problem()->layout(), MassToKeep(scene_, options_.priors),
+                   &summary_.parameters);
     summary_.final_cost = has_result ? evaluator()->best_cost() : nan;
     summary_.final_rms = has_result ? fit_.best_rms() : nan;
+    summary_.prior_cost =
+        has_result ? evaluator()->prior_rows().Cost(evaluator()->best_coordinates())
+                   : nan;
+    summary_.smoothness = options_.smoothness;
     summary_.iterations = context_.num_iterations;
     summary_.evaluations += evaluator()->num_rollouts();
     summary_.jacobian_evaluations += evaluator()->num_derivative_passes();
@@ -328,6 +337,9 @@ class Fit {
 
 EstimatorSummary Estimate(const Scene& scene, const Observations& observations,
                           const EstimatorOptions& options) {
+  if (HasWeightsToChoose(options)) {
+    return EstimateWithChosenWeights(scene, observations, options);
+  }
   return Fit(scene, observations, options).Run();
 }
 

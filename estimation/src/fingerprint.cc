@@ -78,6 +78,14 @@ std::string DigestOf(const Observations& observations) {
   return digest.Text();
 }
 
+std::string PriorsText(const EstimatorOptions& options) {
+  std::string text;
+  for (const Prior& prior : options.priors) {
+    text += (text.empty() ? "" : ";") + PriorText(prior);
+  }
+  return text;
+}
+
 std::string Start(const EstimatorOptions& options) {
   switch (options.init) {
     case InitMethod::kAuto:
@@ -122,7 +130,7 @@ std::string Solver(SolverType solver) {
 
 Fingerprint FingerprintOf(const Scene& scene, const Observations& observations,
                           const EstimatorOptions& options) {
-  return {
+  Fingerprint fingerprint = {
       {"scene", DigestOf(SceneToJson(scene))},
       {"settings", SettingsString(scene)},
       {"target", DigestOf(observations)},
@@ -135,6 +143,11 @@ Fingerprint FingerprintOf(const Scene& scene, const Observations& observations,
       {"init", Start(options)},
       {"init_perturbation", Number(options.init_perturbation)},
       {"seed", std::to_string(options.seed)}};
+  if (!options.priors.empty()) fingerprint.push_back({"priors", PriorsText(options)});
+  if (!options.smoothness.empty()) {
+    fingerprint.push_back({"smoothness", SmoothnessText(options.smoothness)});
+  }
+  return fingerprint;
 }
 
 void RequireSameProblem(const Checkpoint& checkpoint, const Fingerprint& problem,

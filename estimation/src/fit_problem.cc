@@ -27,6 +27,8 @@ FitProblem::FitProblem(const Scene& blank, const Observations& observations,
   evaluator_options.num_threads = options.num_threads;
   evaluator_options.memory_limit_bytes = options.memory_limit_bytes;
   evaluator_options.timings = options.timings;
+  evaluator_options.priors = options.priors;
+  evaluator_options.smoothness = options.smoothness;
   evaluator_options.interrupted = [stop] { return stop->Poll(); };
   evaluator_options.improved = [this] {
     best_rms_ = RmsPositionError(evaluator()->trajectory(), observations_, num_frames_);
@@ -34,6 +36,11 @@ FitProblem::FitProblem(const Scene& blank, const Observations& observations,
   problem_ =
       std::make_unique<TrajectoryProblem>(blank, std::move(costs), evaluator_options);
   noise_is_known_ = NoiseIsKnown(blank, observations_);
+  if (!noise_is_known_ && !(options.priors.empty() && options.smoothness.empty())) {
+    throw SceneError(
+        "priors and smoothness are weighed against the noise of the target, which is "
+        "not known: give its standard deviation (--sigma, or sigma in the target)");
+  }
   converged_cost_ = CostOfRms(blank, observations_, options.rms_tolerance);
 }
 

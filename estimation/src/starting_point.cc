@@ -1,5 +1,7 @@
 #include "starting_point.h"
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "dpe/estimation/inverse_dynamics.h"
@@ -31,10 +33,20 @@ StartingPoint FromParameters(const Eigen::VectorXd& parameters, const std::strin
   return start;
 }
 
+// `priors` decide the scale of what motion alone leaves free, after this start.
 StartingPoint FromInverseDynamics(const Scene& scene, const Observations& observations,
+                                  const std::vector<Prior>& priors,
                                   TrajectoryEvaluator* evaluator) {
+  const std::vector<double> free_mass = FreeMass(scene);
   InverseDynamicsResult result = SolveInverseDynamics(
-      evaluator->simulator(), observations, evaluator->num_frames(), FreeMass(scene));
+      evaluator->simulator(), observations, evaluator->num_frames(), free_mass);
+  const std::vector<double> to_keep = MassToKeep(scene, priors);
+  for (size_t object = 0; object < to_keep.size(); ++object) {
+    if (!std::isnan(to_keep[object])) continue;
+    const std::string note = ScaleNote(static_cast<int>(object), free_mass[object]);
+    result.notes.erase(std::remove(result.notes.begin(), result.notes.end(), note),
+                       result.notes.end());
+  }
   StartingPoint start;
   start.init = "inverse_dynamics";
   start.message = result.message;
@@ -55,7 +67,8 @@ StartingPoint FindAutomatically(const Scene& scene, const Observations& observat
                                 TrajectoryEvaluator* evaluator) {
   std::vector<std::string> notes;
   if (InverseDynamicsApplies(scene, observations)) {
-    StartingPoint start = FromInverseDynamics(scene, observations, evaluator);
+    StartingPoint start =
+        FromInverseDynamics(scene, observations, options.priors, evaluator);
     if (start.ok && evaluator->Evaluate(start.coordinates)) return start;
     if (stop->stopped()) return start;
     notes.push_back("the start from inverse dynamics could not be used: " +
@@ -77,9 +90,17 @@ StartingPoint FindStartingPoint(const Scene& scene, const Observations& observat
                                 const EstimatorOptions& options, StopControl* stop,
                                 TrajectoryEvaluator* evaluator) {
   const ParameterLayout& layout = evaluator->layout();
+  if (options.start.size() > 0) {
+    if (options.start.size() != layout.size()) {
+      throw SceneError("the start that was given has " +
+                       std::to_string(options.start.size()) + " values for " +
+                       std::to_string(layout.size()) + " parameters");
+    }
+    return FromParameters(options.start, "given", evaluator->map());
+  }
   switch (options.init) {
     case InitMethod::kInverseDynamics:
-      return FromInverseDynamics(scene, observations, evaluator);
+      return FromInverseDynamics(scene, observations, options.priors, evaluator);
     case InitMethod::kScene:
       return FromParameters(layout.Extract(scene), "scene", evaluator->map());
     case InitMethod::kUniform:

@@ -23,13 +23,19 @@ struct StartingPoint {
 // The sum of the masses of each object's free vertices, kg.
 std::vector<double> FreeMass(const Scene& scene);
 
+// The same, NaN for objects whose scale a prior on mass, stiffness or drag fixes.
+std::vector<double> MassToKeep(const Scene& scene, const std::vector<Prior>& priors);
+
 // True if scaling all unknown masses, stiffnesses and drags of `object` together leaves
 // its motion unchanged: mass and stiffness are unknown, drag is zero or unknown, and
 // there are no colliders.
 bool ScaleIsFree(const Scene& scene, int object);
 
+// The note that says so.
+std::string ScaleNote(int object, double free_mass);
+
 // Scales the parameters of objects with a free scale so that the masses of their free
-// vertices add up to `free_mass` (kg, one per object).
+// vertices add up to `free_mass` (kg, one per object; NaN: leave as it is).
 // @return  one note per such object
 std::vector<std::string> NormaliseScale(const Scene& scene,
                                         const ParameterLayout& layout,
