@@ -67,6 +67,19 @@ void PrintBlocks(const EstimationInput& input, const EstimatorSummary& summary) 
   }
 }
 
+void PrintSmoothness(const EstimatorSummary& summary) {
+  if (summary.smoothness_candidates.empty()) return;
+  std::printf("%16s %14s %14s %17s\n", "smoothness", "training cost", "held-out cost",
+              "held-out RMS (m)");
+  for (const SmoothnessCandidate& candidate : summary.smoothness_candidates) {
+    std::printf("%16g %14.6g %14.6g %17.5g%s%s\n", candidate.weight,
+                candidate.training_cost, candidate.held_out_cost,
+                candidate.held_out_rms, candidate.is_chosen ? "  chosen" : "",
+                candidate.message.empty() ? "" : ("  " + candidate.message).c_str());
+  }
+  std::fflush(stdout);
+}
+
 void PrintUncertainty(const Uncertainty& uncertainty) {
   if (!uncertainty.ok) {
     std::cout << "Error bars: none, " << uncertainty.message << "\n";
@@ -137,6 +150,8 @@ void PrintSummary(const EstimationInput& input, const EstimatorSummary& summary,
                 << " frames (validation): " << Format(validation.rms) << " m\n";
     }
     if (!validation.note.empty()) std::cout << "Note: " << validation.note << "\n";
+    std::cout.flush();  // the table goes past it
+    PrintSmoothness(summary);
     PrintBlocks(input, summary);
     PrintUncertainty(summary.uncertainty);
     if (input.truth_is_known) {
