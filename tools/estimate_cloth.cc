@@ -14,7 +14,18 @@
 #include "support/progress_table.h"
 #include "support/run_main.h"
 
-DEFINE_string(scene, "", "Scene file (required).");
+DEFINE_string(
+    scene, "",
+    "Scene file. Without it the scene is made of the target, which then has to "
+    "be meshes (OBJ files): one cloth under gravity.");
+DEFINE_double(density, 0.1, "Mass per area (kg/m^2) of a cloth made of the target.");
+DEFINE_string(pin_vertices, "still",
+              "Vertices (0,3,7) that are fixed in a cloth made of the target; still: "
+              "those that never move in it; none.");
+DEFINE_string(integrator, "tr_bdf2",
+              "Integration method of a scene made of the target, by name or number.");
+DEFINE_int32(steps_per_frame, 4,
+             "Integration steps in a frame of a scene made of the target.");
 DEFINE_string(target, "",
               "What was observed: CSV (frame,vertex,x,y,z or time,marker,x,y,z, with "
               "sigma if known), TRC, a folder or pattern of OBJ files, PC2, or NumPy "
@@ -226,8 +237,36 @@ TargetOptions TargetFromFlags() {
   return target;
 }
 
+// What makes a scene of the target is an error where there is one.
+SceneFromTargetOptions SceneFromTargetFromFlags() {
+  if (!FLAGS_scene.empty()) {
+    for (const char* flag :
+         {"density", "pin_vertices", "integrator", "steps_per_frame"}) {
+      if (FlagIsGiven(flag)) {
+        throw SceneError("--" + std::string(flag) +
+                         " is about a scene made of the target; --scene replaces it");
+      }
+    }
+  } else {
+    RequireFlag("target", FLAGS_target,
+                "what was observed, unless --scene is a scene file whose own motion is "
+                "to be the target");
+  }
+  RequireAtLeast("steps_per_frame", FLAGS_steps_per_frame, 1);
+  SceneFromTargetOptions options;
+  options.material.density = FLAGS_density;
+  if (FLAGS_pin_vertices == "none") {
+    options.without_pins = true;
+  } else if (FLAGS_pin_vertices != "still") {
+    options.pins = ParseIndices("pin_vertices", FLAGS_pin_vertices);
+  }
+  options.integration_method =
+      FromFlag("integrator", FLAGS_integrator, IntegrationMethodFromName);
+  options.steps_per_frame = FLAGS_steps_per_frame;
+  return options;
+}
+
 EstimationJob JobFromFlags() {
-  RequireFlag("scene", FLAGS_scene, "the scene file whose parameters to estimate");
   RequireAtLeast("frames", FLAGS_frames, 0);
   RequireAtLeast("validate_frames", FLAGS_validate_frames, 0);
   RequireAtLeast("init_perturbation", FLAGS_init_perturbation, 0.0);
@@ -240,6 +279,7 @@ EstimationJob JobFromFlags() {
   RequireAtLeast("memory_limit", FLAGS_memory_limit, 0);
   EstimationJob job;
   job.scene_path = FLAGS_scene;
+  job.scene_from_target = SceneFromTargetFromFlags();
   job.settings = FLAGS_settings;
   job.target_path = FLAGS_target;
   job.target = TargetFromFlags();

@@ -96,6 +96,11 @@ void EstimateMore(const std::string& what, Scene* scene) {
   }
 }
 
+// The file that the scene comes from.
+const std::string& SceneName(const EstimationJob& job) {
+  return job.scene_path.empty() ? job.target_path : job.scene_path;
+}
+
 bool HasResult(const EstimatorSummary& summary) {
   return std::isfinite(summary.final_cost);
 }
@@ -103,18 +108,20 @@ bool HasResult(const EstimatorSummary& summary) {
 }  // namespace
 
 std::string JobName(const EstimationJob& job, const Scene& scene) {
-  return std::filesystem::path(job.scene_path).stem().string() + "_" +
+  return std::filesystem::path(SceneName(job)).stem().string() + "_" +
          SettingsString(scene);
 }
 
 EstimationInput LoadEstimationInput(const EstimationJob& job) {
   EstimationInput input;
-  input.scene = LoadScene(job.scene_path, &input.warnings);
+  input.scene = job.scene_path.empty() ? SceneFromTarget(job.target_path, job.target,
+                                                         job.scene_from_target)
+                                       : LoadScene(job.scene_path, &input.warnings);
   if (!job.settings.empty()) ApplySettings(job.settings, &input.scene);
   for (const std::string& what : job.estimate) EstimateMore(what, &input.scene);
   if (ParameterLayout(input.scene).size() == 0) {
     throw SceneError(
-        job.scene_path + ": nothing is estimated (settings \"" +
+        SceneName(job) + ": nothing is estimated (settings \"" +
         SettingsString(input.scene) +
         "\"); accepted in --settings are two letters per object, mass then "
         "stiffness, each n, G, L or R and not all n");
@@ -151,7 +158,7 @@ std::string PrepareOutputDir(const EstimationJob& job, const Scene& scene) {
 Validation Validate(const EstimatorSummary& summary, const EstimationInput& input,
                     int num_threads) {
   Validation validation;
-  validation.rms = std::numeric_limits<double>::quiet_NaN();
+  validation.rms = validation.held_out_rms = std::numeric_limits<double>::quiet_NaN();
   if (!HasResult(summary)) return validation;
   validation.num_frames = input.num_validation_frames;
   SimulatorOptions options;
@@ -166,6 +173,9 @@ Validation Validate(const EstimatorSummary& summary, const EstimationInput& inpu
   } else if (validation.num_frames > 0) {
     validation.rms =
         RmsPositionError(validation.trajectory, input.reference, validation.num_frames);
+    validation.held_out_rms =
+        RmsPositionError(validation.trajectory, input.reference, validation.num_frames,
+                         summary.num_frames);
   }
   return validation;
 }

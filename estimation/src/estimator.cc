@@ -4,6 +4,8 @@
 #include <limits>
 #include <random>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "dpe/engine/parameters.h"
 #include "fit_checkpoints.h"
@@ -26,17 +28,14 @@ constexpr int kMaxBasins = 3;
 
 class Fit {
  public:
-  Fit(const Scene& scene, const Observations& observations,
-      const EstimatorOptions& options)
-      : scene_(scene),
-        blank_(WithoutEstimatedValues(scene)),
+  Fit(const std::vector<CaptureView>& captures, const EstimatorOptions& options)
+      : captures_(captures),
         options_(options),
-        checkpoints_(scene, observations, options_),
+        checkpoints_(captures, options_),
         stop_(options.max_seconds, options.interrupted,
               resumed() != nullptr ? resumed()->seconds : 0.0),
-        fit_(blank_, observations,
-             NumFramesToFit(scene, observations, options.num_frames), options_,
-             &stop_) {
+        fit_(PrepareCaptures(captures, options.num_frames), options_, &stop_) {
+    RequireOneMass(captures);
     context_.fit = &fit_;
     context_.options = &options_;
     context_.stop = &stop_;
@@ -120,8 +119,8 @@ class Fit {
   }
 
   void FindStart() {
-    start_ =
-        FindStartingPoint(scene_, fit_.observations(), options_, &stop_, evaluator());
+    start_ = FindStartingPoint(
+        {&captures_, &fit_.captures(), &options_, &stop_, evaluator()});
     TryStart();
     if (start_.coordinates.size() > 0) SaveCheckpoint("start", context_, 0.0);
     if (ShouldGrow()) Grow(nullptr);
@@ -161,22 +160,22 @@ class Fit {
     summary_.initial_rms = fit_.best_rms();
   }
 
-  // A start from inverse dynamics has seen the whole motion, one that was given is
-  // somebody's answer; a handful of parameters is
+  // A start from inverse dynamics has seen the whole motion if all captures could be
+  // used for it, one that was given is somebody's answer; a handful of parameters is
   // checked against trial values afterwards.
   bool ShouldGrow() {
     if (options_.horizon != Horizon::kAuto) {
       return options_.horizon == Horizon::kGrow;
     }
-    return use_lm_ && !HasFewParameters() && start_.init != "inverse_dynamics" &&
-           start_.init != "given";
+    return use_lm_ && !HasFewParameters() && start_.init != "given" &&
+           (start_.init != "inverse_dynamics" || !AllAreComplete(fit_.captures()));
   }
 
   // @param resumed  where to continue; null: at the start
   void Grow(const Checkpoint* resumed) {
     if (start_.coordinates.size() == 0 || fit_.IsAtRounding()) return;
-    const GrownHorizon grown = GrowHorizon(blank_, fit_.observations(),
-                                           start_.coordinates, &context_, resumed);
+    const GrownHorizon grown =
+        GrowHorizon(fit_.captures(), start_.coordinates, &context_, resumed);
     summary_.horizons = context_.horizons;
     summary_.evaluations += grown.num_rollouts;
     summary_.jacobian_evaluations += grown.num_derivative_passes;
@@ -211,8 +210,9 @@ class Fit {
     const bool is_done = start_.init == "inverse_dynamics";
     if (is_done && options_.init_perturbation == 0.0) return;
     Eigen::VectorXd parameters = evaluator()->map().ToParameters(start_.coordinates);
-    const std::vector<std::string> notes = NormaliseScale(
-        scene_, problem()->layout(), MassToKeep(scene_, options_.priors), &parameters);
+    const std::vector<std::string> notes =
+        NormaliseScale(captures_, problem()->layout(),
+                       MassToKeep(captures_, options_.priors), &parameters);
     if (notes.empty()) return;
     if (!is_done) {
       summary_.notes.insert(summary_.notes.end(), notes.begin(), notes.end());
@@ -285,8 +285,8 @@ class Fit {
     summary_.parameters = evaluator()->map().ToParameters(
         has_result ? evaluator()->best_coordinates() : problem()->coordinates());
     // Steps of the optimiser may have moved along the scale, which costs nothing.
-    NormaliseScale(scene_, problem()->layout(), MassToKeep(scene_, options_.priors),
-                   &summary_.parameters);
+    NormaliseScale(captures_, problem()->layout(),
+                   MassToKeep(captures_, options_.priors), &summary_.parameters);
     summary_.final_cost = has_result ? evaluator()->best_cost() : nan;
     summary_.final_rms = has_result ? fit_.best_rms() : nan;
     summary_.prior_cost =
@@ -296,14 +296,48 @@ class Fit {
     summary_.iterations = context_.num_iterations;
     summary_.evaluations += evaluator()->num_rollouts();
     summary_.jacobian_evaluations += evaluator()->num_derivative_passes();
-    summary_.scene = scene_;
-    problem()->layout().Insert(summary_.parameters, &summary_.scene);
+    SummariseCaptures(has_result);
     summary_.blocks = MakeEstimatedBlocks(problem()->layout(), summary_.parameters);
     if (!checkpoints_.problem().empty()) {
       summary_.notes.push_back(checkpoints_.problem());
     }
     FindUncertainty(has_result);
+    FindSensitivity(has_result);
     summary_.wall_time_s = stop_.Seconds();
+  }
+
+  // Of every capture; that of the fit is the largest.
+  void FindSensitivity(bool has_result) {
+    if (!has_result || stop_.stopped() ||
+        options_.uncertainty == UncertaintyMode::kOff) {
+      summary_.sensitivity.message = "not asked for, or the fit was stopped";
+      return;
+    }
+    SimulatorOptions options;
+    options.num_threads = options_.num_threads;
+    options.memory_limit_bytes = options_.memory_limit_bytes;
+    options.interrupted = [this] { return stop_.Poll(); };
+    for (CaptureSummary& capture : summary_.captures) {
+      capture.sensitivity =
+          ComputeMotionSensitivity(capture.scene, capture.num_frames, options);
+      if (!summary_.sensitivity.ok ||
+          capture.sensitivity.growth > summary_.sensitivity.growth) {
+        summary_.sensitivity = capture.sensitivity;
+      }
+    }
+  }
+
+  void SummariseCaptures(bool has_result) {
+    for (int c = 0; c < static_cast<int>(captures_.size()); ++c) {
+      CaptureSummary capture;
+      capture.scene = *captures_[c].scene;
+      problem()->layout().Insert(summary_.parameters, &capture.scene, c);
+      capture.num_frames = fit_.captures()[c].num_frames;
+      capture.final_rms =
+          has_result ? fit_.best_rms(c) : std::numeric_limits<double>::quiet_NaN();
+      summary_.captures.push_back(std::move(capture));
+    }
+    summary_.scene = summary_.captures[0].scene;
   }
 
   void FindUncertainty(bool has_result) {
@@ -315,13 +349,12 @@ class Fit {
                                  fit_.noise_is_known())) {
       summary_.uncertainty.message = "not asked for";
     } else {
-      summary_.uncertainty =
-          UncertaintyOfFit(blank_, fit_.noise_is_known(), options_, evaluator());
+      summary_.uncertainty = UncertaintyOfFit(fit_.captures(), fit_.noise_is_known(),
+                                              options_, evaluator());
     }
   }
 
-  const Scene& scene_;
-  const Scene blank_;  // without the values of what is estimated
+  const std::vector<CaptureView> captures_;
   const EstimatorOptions options_;
   FitCheckpoints checkpoints_;
   StopControl stop_;
@@ -333,14 +366,33 @@ class Fit {
   double last_radius_ = 0.0;  // of the fit to all frames
 };
 
+EstimatorSummary EstimateCaptures(const std::vector<CaptureView>& captures,
+                                  const EstimatorOptions& options) {
+  const auto fit = [](const std::vector<CaptureView>& views,
+                      const EstimatorOptions& fit_options) {
+    return Fit(views, fit_options).Run();
+  };
+  return HasWeightsToChoose(options) ? FitWithChosenWeights(captures, options, fit)
+                                     : fit(captures, options);
+}
+
 }  // namespace
 
 EstimatorSummary Estimate(const Scene& scene, const Observations& observations,
                           const EstimatorOptions& options) {
-  if (HasWeightsToChoose(options)) {
-    return EstimateWithChosenWeights(scene, observations, options);
+  return EstimateCaptures({{&scene, &observations, "the capture"}}, options);
+}
+
+EstimatorSummary Estimate(const std::vector<CapturedMotion>& captures,
+                          const EstimatorOptions& options) {
+  std::vector<CaptureView> views;
+  for (const CapturedMotion& capture : captures) {
+    const std::string name = capture.name.empty()
+                                 ? "capture " + std::to_string(views.size() + 1)
+                                 : capture.name;
+    views.push_back({&capture.scene, &capture.observations, name});
   }
-  return Fit(scene, observations, options).Run();
+  return EstimateCaptures(views, options);
 }
 
 }  // namespace dpe

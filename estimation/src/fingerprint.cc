@@ -128,21 +128,31 @@ std::string Solver(SolverType solver) {
 
 }  // namespace
 
-Fingerprint FingerprintOf(const Scene& scene, const Observations& observations,
+Fingerprint FingerprintOf(const std::vector<CaptureView>& captures,
                           const EstimatorOptions& options) {
-  Fingerprint fingerprint = {
-      {"scene", DigestOf(SceneToJson(scene))},
-      {"settings", SettingsString(scene)},
-      {"target", DigestOf(observations)},
-      {"frames", std::to_string(options.num_frames > 0 ? options.num_frames
-                                                       : observations.num_frames())},
-      {"loss", LossTypeName(options.loss)},
-      {"loss_scale", Number(options.loss_scale)},
-      {"horizon", HorizonName(options.horizon)},
-      {"solver", Solver(options.solver)},
-      {"init", Start(options)},
-      {"init_perturbation", Number(options.init_perturbation)},
-      {"seed", std::to_string(options.seed)}};
+  Fingerprint fingerprint;
+  for (size_t c = 0; c < captures.size(); ++c) {
+    // Of one capture alone the names are those of its only scene and target.
+    const std::string which = captures.size() == 1 ? "" : " " + std::to_string(c + 1);
+    const Scene& scene = *captures[c].scene;
+    const Observations& observations = *captures[c].observations;
+    fingerprint.insert(
+        fingerprint.end(),
+        {{"scene" + which, DigestOf(SceneToJson(scene))},
+         {"settings" + which, SettingsString(scene)},
+         {"target" + which, DigestOf(observations)},
+         {"frames" + which,
+          std::to_string(options.num_frames > 0 ? options.num_frames
+                                                : observations.num_frames())}});
+  }
+  fingerprint.insert(fingerprint.end(),
+                     {{"loss", LossTypeName(options.loss)},
+                      {"loss_scale", Number(options.loss_scale)},
+                      {"horizon", HorizonName(options.horizon)},
+                      {"solver", Solver(options.solver)},
+                      {"init", Start(options)},
+                      {"init_perturbation", Number(options.init_perturbation)},
+                      {"seed", std::to_string(options.seed)}});
   if (!options.priors.empty()) fingerprint.push_back({"priors", PriorsText(options)});
   if (!options.smoothness.empty()) {
     fingerprint.push_back({"smoothness", SmoothnessText(options.smoothness)});

@@ -2,17 +2,18 @@
 #ifndef DPE_ESTIMATION_FINGERPRINT_H_
 #define DPE_ESTIMATION_FINGERPRINT_H_
 
-#include "dpe/engine/scene.h"
+#include <vector>
+
 #include "dpe/estimation/checkpoint.h"
 #include "dpe/estimation/estimator.h"
-#include "dpe/estimation/observations.h"
+#include "fit_setup.h"
 
 namespace dpe {
 
-// Scene, what is estimated, observations, and those options that decide where the
+// Scenes, what is estimated, observations, and those options that decide where the
 // optimiser goes. Not among them is what changes only when it stops and how fast it
 // gets there: limits of iterations and time, tolerances, threads, memory.
-Fingerprint FingerprintOf(const Scene& scene, const Observations& observations,
+Fingerprint FingerprintOf(const std::vector<CaptureView>& captures,
                           const EstimatorOptions& options);
 
 }  // namespace dpe

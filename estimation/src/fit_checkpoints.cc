@@ -22,11 +22,11 @@ void RequireFolder(const std::string& path) {
 
 }  // namespace
 
-FitCheckpoints::FitCheckpoints(const Scene& scene, const Observations& observations,
+FitCheckpoints::FitCheckpoints(const std::vector<CaptureView>& captures,
                                const EstimatorOptions& options)
     : path_(options.checkpoint_path), resume_path_(options.resume_path) {
   if (path_.empty() && resume_path_.empty()) return;
-  fingerprint_ = FingerprintOf(scene, observations, options);
+  fingerprint_ = FingerprintOf(captures, options);
   if (!resume_path_.empty()) {
     resumed_ = ReadCheckpoint(resume_path_);
     RequireSameProblem(*resumed_, fingerprint_, resume_path_);

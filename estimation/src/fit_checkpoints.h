@@ -4,11 +4,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "dpe/engine/scene.h"
 #include "dpe/estimation/checkpoint.h"
 #include "dpe/estimation/estimator.h"
-#include "dpe/estimation/observations.h"
+#include "fit_setup.h"
 #include "optimizers.h"
 
 namespace dpe {
@@ -18,7 +18,7 @@ class FitCheckpoints {
   // Reads the checkpoint to continue, if there is one.
   // @throws SceneError if it cannot be read or is of another fit, or there is no folder
   //         for the one to write
-  FitCheckpoints(const Scene& scene, const Observations& observations,
+  FitCheckpoints(const std::vector<CaptureView>& captures,
                  const EstimatorOptions& options);
 
   // What to continue; null: nothing.

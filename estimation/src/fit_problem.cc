@@ -4,23 +4,37 @@
 #include <sstream>
 #include <utility>
 
-#include "fit_setup.h"
-
 namespace dpe {
 
-FitProblem::FitProblem(const Scene& blank, const Observations& observations,
-                       int num_frames, const EstimatorOptions& options,
-                       StopControl* stop)
-    : num_frames_(num_frames),
-      observations_(CutFrames(observations, 0, num_frames)),
-      best_rms_(std::numeric_limits<double>::quiet_NaN()) {
+FitProblem::FitProblem(std::vector<FitCapture> captures,
+                       const EstimatorOptions& options, StopControl* stop)
+    : captures_(std::move(captures)),
+      num_frames_(MostFrames(captures_)),
+      best_rms_(std::numeric_limits<double>::quiet_NaN()),
+      best_rms_of_(captures_.size(), best_rms_) {
   PositionCostOptions cost_options;
   cost_options.loss = options.loss;
   cost_options.loss_scale = options.loss_scale;
-  TrajectoryCosts costs =
-      MakePositionCosts(blank, observations_, num_frames, cost_options);
-  if (costs.empty()) {
+  std::vector<TrajectorySegment> segments;
+  bool is_anything_observed = false;
+  for (const FitCapture& capture : captures_) {
+    TrajectorySegment segment;
+    segment.scene = capture.blank;
+    segment.costs = MakePositionCosts(capture.blank, capture.observations,
+                                      capture.num_frames, cost_options);
+    is_anything_observed |= !segment.costs.empty();
+    segments.push_back(std::move(segment));
+    noise_is_known_ |= NoiseIsKnown(capture.blank, capture.observations);
+    converged_cost_ +=
+        CostOfRms(capture.blank, capture.observations, options.rms_tolerance);
+  }
+  if (!is_anything_observed) {
     throw SceneError("no free vertex of an estimated object is observed after frame 0");
+  }
+  if (!noise_is_known_ && !(options.priors.empty() && options.smoothness.empty())) {
+    throw SceneError(
+        "priors and smoothness are weighed against the noise of the target, which is "
+        "not known: give its standard deviation (--sigma, or sigma in the target)");
   }
   TrajectoryEvaluatorOptions evaluator_options;
   evaluator_options.jacobian = options.jacobian;
@@ -29,19 +43,25 @@ FitProblem::FitProblem(const Scene& blank, const Observations& observations,
   evaluator_options.timings = options.timings;
   evaluator_options.priors = options.priors;
   evaluator_options.smoothness = options.smoothness;
+  evaluator_options.own_wind = true;
   evaluator_options.interrupted = [stop] { return stop->Poll(); };
-  evaluator_options.improved = [this] {
-    best_rms_ = RmsPositionError(evaluator()->trajectory(), observations_, num_frames_);
-  };
-  problem_ =
-      std::make_unique<TrajectoryProblem>(blank, std::move(costs), evaluator_options);
-  noise_is_known_ = NoiseIsKnown(blank, observations_);
-  if (!noise_is_known_ && !(options.priors.empty() && options.smoothness.empty())) {
-    throw SceneError(
-        "priors and smoothness are weighed against the noise of the target, which is "
-        "not known: give its standard deviation (--sigma, or sigma in the target)");
+  evaluator_options.improved = [this] { MeasureErrors(); };
+  problem_ = std::make_unique<TrajectoryProblem>(
+      std::move(segments), std::vector<SegmentLink>(), evaluator_options);
+}
+
+void FitProblem::MeasureErrors() {
+  PositionErrors all;
+  for (size_t c = 0; c < captures_.size(); ++c) {
+    const Trajectory& trajectory = evaluator()->trajectory(static_cast<int>(c));
+    PositionErrors own;
+    AddPositionErrors(trajectory, captures_[c].observations, captures_[c].num_frames,
+                      &own);
+    best_rms_of_[c] = own.Rms();
+    all.sum += own.sum;
+    all.count += own.count;
   }
-  converged_cost_ = CostOfRms(blank, observations_, options.rms_tolerance);
+  best_rms_ = all.Rms();
 }
 
 bool FitProblem::IsAtRounding() const {

@@ -1,48 +1,54 @@
-// The fit to the first frames of what was observed as an optimisation problem, and how
-// far it has got.
+// The fit to the first frames of one or several captures as an optimisation problem,
+// and how far it has got. What is shared between captures, and what each has for
+// itself, is said in joint_layout.h; a wind that is estimated is each capture's own.
 #ifndef DPE_ESTIMATION_FIT_PROBLEM_H_
 #define DPE_ESTIMATION_FIT_PROBLEM_H_
 
 #include <Eigen/Core>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "dpe/engine/scene.h"
 #include "dpe/estimation/estimator.h"
-#include "dpe/estimation/observations.h"
 #include "dpe/estimation/trajectory_problem.h"
+#include "fit_setup.h"
 #include "stop_control.h"
 
 namespace dpe {
 
 class FitProblem {
  public:
-  // @param blank    the scene without its values of what is estimated
-  // @param stop     polled within rollouts; must outlive this
+  // @param captures  each its own rollout, over all its frames
+  // @param stop      polled within rollouts; must outlive this
   // @throws SceneError if nothing that could be fitted is observed in these frames
-  FitProblem(const Scene& blank, const Observations& observations, int num_frames,
-             const EstimatorOptions& options, StopControl* stop);
+  FitProblem(std::vector<FitCapture> captures, const EstimatorOptions& options,
+             StopControl* stop);
   FitProblem(const FitProblem&) = delete;
   FitProblem& operator=(const FitProblem&) = delete;
 
   TrajectoryProblem* problem() { return problem_.get(); }
   TrajectoryEvaluator* evaluator() { return problem_->evaluator(); }
-  const Observations& observations() const { return observations_; }
-  int num_frames() const { return num_frames_; }
+  const std::vector<FitCapture>& captures() const { return captures_; }
+  int num_frames() const { return num_frames_; }  // of the longest capture
 
   // True if residuals are in standard deviations, false if in m.
   bool noise_is_known() const { return noise_is_known_; }
 
   // RMS position error at the point of least cost so far, m; NaN before there is one.
   double best_rms() const { return best_rms_; }
+  // The same of one capture alone.
+  double best_rms(int capture) const { return best_rms_of_[capture]; }
   // True if that point's cost is nothing but rounding (options.rms_tolerance).
   bool IsAtRounding() const;
 
  private:
+  void MeasureErrors();
+
+  const std::vector<FitCapture> captures_;
   const int num_frames_;
-  const Observations observations_;  // of these frames
   bool noise_is_known_ = false;
   double best_rms_;
+  std::vector<double> best_rms_of_;
   double converged_cost_ = 0.0;
   std::unique_ptr<TrajectoryProblem> problem_;
 };

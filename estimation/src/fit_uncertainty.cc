@@ -5,6 +5,7 @@
 
 #include "fit_problem.h"
 #include "prior_rows.h"
+#include "residual_correlation.h"
 #include "tall_qr.h"
 
 namespace dpe {
@@ -43,8 +44,8 @@ bool WantsUncertainty(const EstimatorOptions& options, int num_parameters,
   return noise_is_known || num_parameters <= kFewParameters;
 }
 
-Uncertainty UncertaintyOfFit(const Scene& scene, bool noise_is_known,
-                             const EstimatorOptions& options,
+Uncertainty UncertaintyOfFit(const std::vector<FitCapture>& captures,
+                             bool noise_is_known, const EstimatorOptions& options,
                              TrajectoryEvaluator* evaluator) {
   const double bytes = JacobianBytes(*evaluator);
   if (bytes > options.max_lm_jacobian_bytes) {
@@ -56,8 +57,15 @@ Uncertainty UncertaintyOfFit(const Scene& scene, bool noise_is_known,
       !evaluator->EvaluateJacobian()) {
     return NotComputed(evaluator->message());
   }
+  ResidualCorrelation correlation;
+  for (int c = 0; c < static_cast<int>(captures.size()); ++c) {
+    CorrelateResiduals(evaluator->trajectory(c), captures[c].observations,
+                       captures[c].num_frames, &correlation);
+  }
   UncertaintyInput input;
-  input.scene = &scene;
+  input.residual_correlation = correlation.rho();
+  input.num_residual_pairs = correlation.num_pairs;
+  input.scene = &captures[0].blank;
   input.layout = &evaluator->layout();
   input.coordinates = evaluator->best_coordinates();
   input.data_triangle = evaluator->num_segments() == 1

@@ -2,10 +2,12 @@
 #ifndef DPE_ESTIMATION_FIT_UNCERTAINTY_H_
 #define DPE_ESTIMATION_FIT_UNCERTAINTY_H_
 
-#include "dpe/engine/scene.h"
+#include <vector>
+
 #include "dpe/estimation/estimator.h"
 #include "dpe/estimation/trajectory_evaluator.h"
 #include "dpe/estimation/uncertainty.h"
+#include "fit_setup.h"
 
 namespace dpe {
 
@@ -17,9 +19,9 @@ bool WantsUncertainty(const EstimatorOptions& options, int num_parameters,
 // Jacobian cannot be computed, or would be larger than options.max_lm_jacobian_bytes,
 // the result is not ok and says why.
 //
-// @param scene  of the evaluator's layout, for names
-Uncertainty UncertaintyOfFit(const Scene& scene, bool noise_is_known,
-                             const EstimatorOptions& options,
+// @param captures  of the fit; the first has the names
+Uncertainty UncertaintyOfFit(const std::vector<FitCapture>& captures,
+                             bool noise_is_known, const EstimatorOptions& options,
                              TrajectoryEvaluator* evaluator);
 
 }  // namespace dpe

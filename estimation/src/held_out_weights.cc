@@ -10,7 +10,6 @@
 
 #include "dpe/estimation/checkpoint.h"
 #include "dpe/estimation/trajectory_evaluator.h"
-#include "fit_setup.h"
 #include "frame_interpolation.h"
 
 namespace dpe {
@@ -57,17 +56,27 @@ Observations FromFrame(int first, int num_frames, Observations observations) {
 
 class WeightSearch {
  public:
-  WeightSearch(const Scene& scene, const Observations& observations,
-               const EstimatorOptions& options)
-      : scene_(scene), observations_(observations), options_(options) {
-    num_frames_ = NumFramesToFit(scene, observations, options.num_frames);
-    if (num_frames_ < kLeastFrames) {
-      throw SceneError("smoothness: a weight chosen by held-out frames (auto) needs " +
-                       std::to_string(kLeastFrames) + " frames, there are " +
-                       std::to_string(num_frames_));
+  WeightSearch(const std::vector<CaptureView>& captures,
+               const EstimatorOptions& options, const FitFunction& fit)
+      : captures_(captures),
+        options_(options),
+        fit_(fit),
+        whole_(PrepareCaptures(captures, options.num_frames)) {
+    training_.reserve(whole_.size());
+    for (size_t c = 0; c < whole_.size(); ++c) {
+      const int num_frames = whole_[c].num_frames;
+      if (num_frames < kLeastFrames) {
+        throw SceneError(captures[c].name +
+                         ": smoothness with a weight chosen by held-out frames (auto) "
+                         "needs " +
+                         std::to_string(kLeastFrames) + " frames, there are " +
+                         std::to_string(num_frames));
+      }
+      const int held_out =
+          std::max(1, static_cast<int>(std::lround(kHeldOut * num_frames)));
+      num_training_.push_back(num_frames - held_out);
+      training_.push_back(CutFrames(whole_[c].observations, 0, num_training_.back()));
     }
-    num_training_ = num_frames_ -
-                    std::max(1, static_cast<int>(std::lround(kHeldOut * num_frames_)));
     MakeHeldOut();
   }
 
@@ -85,24 +94,39 @@ class WeightSearch {
 
  private:
   void MakeHeldOut() {
-    const Scene blank = WithoutEstimatedValues(scene_);
-    held_out_ = FromFrame(num_training_, num_frames_, observations_);
     PositionCostOptions cost_options;
     cost_options.loss = options_.loss;
     cost_options.loss_scale = options_.loss_scale;
-    TrajectoryCosts costs =
-        MakePositionCosts(blank, held_out_, num_frames_, cost_options);
-    if (costs.empty()) {
+    bool is_anything_observed = false;
+    std::vector<TrajectorySegment> segments(whole_.size());
+    for (size_t c = 0; c < whole_.size(); ++c) {
+      const FitCapture& capture = whole_[c];
+      segments[c].scene = capture.blank;
+      segments[c].costs = MakePositionCosts(
+          capture.blank,
+          FromFrame(num_training_[c], capture.num_frames, capture.observations),
+          capture.num_frames, cost_options);
+      is_anything_observed |= !segments[c].costs.empty();
+    }
+    if (!is_anything_observed) {
       throw SceneError("smoothness: no free vertex is observed in the frames from " +
-                       std::to_string(num_training_) +
+                       std::to_string(num_training_[0]) +
                        " on, by which a weight (auto) would be chosen; give a number");
     }
     TrajectoryEvaluatorOptions evaluator_options;
+    evaluator_options.own_wind = true;  // as in the fit
     evaluator_options.num_threads = options_.num_threads;
     evaluator_options.memory_limit_bytes = options_.memory_limit_bytes;
     evaluator_options.interrupted = options_.interrupted;
-    held_out_evaluator_ = std::make_unique<TrajectoryEvaluator>(blank, std::move(costs),
-                                                                evaluator_options);
+    held_out_evaluator_ = std::make_unique<TrajectoryEvaluator>(
+        std::move(segments), std::vector<SegmentLink>(), evaluator_options);
+  }
+
+  // The captures with what a candidate may see of them.
+  std::vector<CaptureView> Training() const {
+    std::vector<CaptureView> views = captures_;
+    for (size_t c = 0; c < views.size(); ++c) views[c].observations = &training_[c];
+    return views;
   }
 
   double Seconds() const {
@@ -128,7 +152,7 @@ class WeightSearch {
   bool Try(double weight) {
     EstimatorOptions options = Base(0.5 * options_.max_seconds);
     options.smoothness = WithWeight(options_.smoothness, weight);
-    options.num_frames = num_training_;
+    options.num_frames = 0;  // all that there are
     options.uncertainty = UncertaintyMode::kOff;
     options.checkpoint_path.clear();
     options.resume_path.clear();
@@ -138,7 +162,7 @@ class WeightSearch {
       options.start = last_.parameters;
       options.horizon = Horizon::kFull;
     }
-    EstimatorSummary fitted = Estimate(scene_, observations_, options);
+    EstimatorSummary fitted = fit_(Training(), options);
     Count(fitted);
     was_interrupted_ = fitted.termination == Termination::kInterrupted;
     is_over_ = was_interrupted_ || fitted.termination == Termination::kMaxSeconds;
@@ -175,8 +199,13 @@ class WeightSearch {
       return;
     }
     candidate->held_out_cost = evaluator.data_cost();
-    candidate->held_out_rms =
-        RmsPositionError(evaluator.trajectory(), held_out_, num_frames_);
+    PositionErrors errors;
+    for (size_t c = 0; c < whole_.size(); ++c) {
+      AddPositionErrors(evaluator.trajectory(static_cast<int>(c)),
+                        whole_[c].observations, whole_[c].num_frames, &errors,
+                        num_training_[c]);
+    }
+    candidate->held_out_rms = errors.Rms();
   }
 
   void Count(const EstimatorSummary& fitted) {
@@ -189,15 +218,15 @@ class WeightSearch {
     EstimatorOptions options = Base(options_.max_seconds);
     const double weight = candidates_[best_index_].weight;
     options.smoothness = WithWeight(options_.smoothness, weight);
-    options.num_frames = num_frames_;
     // As asked for in all else, so that a checkpoint is one of this fit.
     options.start = best_.parameters;
-    EstimatorSummary summary = Estimate(scene_, observations_, options);
+    EstimatorSummary summary = fit_(captures_, options);
     summary.init = first_init_;
     std::ostringstream note;
     note << "smoothness: of " << candidates_.size() << " weights, " << weight
-         << " predicts the last " << num_frames_ - num_training_
-         << " frames best from the first " << num_training_;
+         << " predicts the last " << whole_[0].num_frames - num_training_[0]
+         << " frames best from the first " << num_training_[0];
+    if (whole_.size() > 1) note << " (of the first capture, likewise of the others)";
     if (best_index_ == 0 || weight < 1.5 * std::pow(10.0, kWeakest)) {
       note << "; it is at the end of the range that was tried";
     }
@@ -217,7 +246,7 @@ class WeightSearch {
       summary.notes.push_back(
           "smoothness: stopped while weights were tried; this is the fit to the "
           "first " +
-          std::to_string(num_training_) + " frames with the best of them");
+          std::to_string(num_training_[0]) + " frames with the best of them");
     }
     summary.iterations = summary.evaluations = summary.jacobian_evaluations = 0;
     return WithTable(std::move(summary));
@@ -234,13 +263,13 @@ class WeightSearch {
 
   using Clock = std::chrono::steady_clock;
 
-  const Scene& scene_;
-  const Observations& observations_;
+  const std::vector<CaptureView>& captures_;
   const EstimatorOptions& options_;
+  const FitFunction& fit_;
+  const std::vector<FitCapture> whole_;
+  std::vector<int> num_training_;  // frames of each capture
+  std::vector<Observations> training_;
   const Clock::time_point begin_ = Clock::now();
-  int num_frames_ = 0;
-  int num_training_ = 0;
-  Observations held_out_;
   std::unique_ptr<TrajectoryEvaluator> held_out_evaluator_;
   std::vector<SmoothnessCandidate> candidates_;
   EstimatorSummary best_, last_;
@@ -269,11 +298,11 @@ bool HasWeightsToChoose(const EstimatorOptions& options) {
       [](const SmoothnessPrior& one) { return one.is_chosen && !(one.weight > 0.0); });
 }
 
-EstimatorSummary EstimateWithChosenWeights(const Scene& scene,
-                                           const Observations& observations,
-                                           const EstimatorOptions& options) {
+EstimatorSummary FitWithChosenWeights(const std::vector<CaptureView>& captures,
+                                      const EstimatorOptions& options,
+                                      const FitFunction& fit) {
   if (options.resume_path.empty()) {
-    return WeightSearch(scene, observations, options).Run();
+    return WeightSearch(captures, options, fit).Run();
   }
   EstimatorOptions resumed = options;
   const std::vector<SmoothnessPrior> known =
@@ -292,7 +321,7 @@ EstimatorSummary EstimateWithChosenWeights(const Scene& scene,
                      SmoothnessText(known) + " there, " +
                      SmoothnessText(options.smoothness) + " now)");
   }
-  return Estimate(scene, observations, resumed);
+  return fit(captures, resumed);
 }
 
 }  // namespace dpe

@@ -15,22 +15,28 @@
 #ifndef DPE_ESTIMATION_HELD_OUT_WEIGHTS_H_
 #define DPE_ESTIMATION_HELD_OUT_WEIGHTS_H_
 
-#include "dpe/engine/scene.h"
+#include <functional>
+#include <vector>
+
 #include "dpe/estimation/estimator.h"
-#include "dpe/estimation/observations.h"
+#include "fit_setup.h"
 
 namespace dpe {
 
 // True if some smoothness prior has no weight yet.
 bool HasWeightsToChoose(const EstimatorOptions& options);
 
-// Estimate() with the weights chosen first. Candidates take at most half of
-// options.max_seconds; where one is interrupted, the best so far is the result. A fit
-// that is resumed takes the weights of its checkpoint: there is none before they are
-// chosen.
-EstimatorSummary EstimateWithChosenWeights(const Scene& scene,
-                                           const Observations& observations,
-                                           const EstimatorOptions& options);
+// A fit with all weights given.
+using FitFunction = std::function<EstimatorSummary(
+    const std::vector<CaptureView>& captures, const EstimatorOptions& options)>;
+
+// `fit` with the weights chosen first, by the last frames of every capture. Candidates
+// take at most half of options.max_seconds; where one is interrupted, the best so far
+// is the result. A fit that is resumed takes the weights of its checkpoint: there is
+// none before they are chosen.
+EstimatorSummary FitWithChosenWeights(const std::vector<CaptureView>& captures,
+                                      const EstimatorOptions& options,
+                                      const FitFunction& fit);
 
 }  // namespace dpe
 

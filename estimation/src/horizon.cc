@@ -1,5 +1,7 @@
 #include "horizon.h"
 
+#include <algorithm>
+
 #include "moved_observations.h"
 
 namespace dpe {
@@ -18,13 +20,11 @@ constexpr double kShortFunctionTolerance = 0.1;
 
 class HorizonGrower {
  public:
-  HorizonGrower(const Scene& blank, const Observations& observations,
-                OptimizerContext* context)
-      : blank_(blank),
-        observations_(observations),
+  HorizonGrower(const std::vector<FitCapture>& captures, OptimizerContext* context)
+      : captures_(captures),
         options_(*context->options),
         context_(context),
-        num_frames_(observations.num_frames()) {
+        num_frames_(MostObservedFrames()) {
     stage_context_ = *context;
     stage_context_.options = &options_;
   }
@@ -32,7 +32,7 @@ class HorizonGrower {
   GrownHorizon Run(const Eigen::VectorXd& start, const Checkpoint* resumed) {
     result_.coordinates = start;
     // Frame 0 is given, and horizons in which nothing was seen say nothing.
-    int solved = FirstMovedFrame(blank_, observations_, num_frames_);
+    int solved = FirstMovedFrame();
     int step = kFirstHorizon - 1;
     if (resumed != nullptr) {
       result_.coordinates = resumed->coordinates;
@@ -60,12 +60,30 @@ class HorizonGrower {
   }
 
  private:
+  int MostObservedFrames() const {
+    int most = 0;
+    for (const FitCapture& capture : captures_) {
+      most = std::max(most, capture.observations.num_frames());
+    }
+    return most;
+  }
+
+  // Of the capture that shows something first.
+  int FirstMovedFrame() const {
+    int first = num_frames_;
+    for (const FitCapture& capture : captures_) {
+      first = std::min(first, dpe::FirstMovedFrame(capture.blank, capture.observations,
+                                                   num_frames_));
+    }
+    return first;
+  }
+
   // False if the start cannot be simulated over as many frames.
   bool Fit(int num_frames) {
     options_.function_tolerance = num_frames < kLongHorizon
                                       ? kShortFunctionTolerance
                                       : context_->options->function_tolerance;
-    FitProblem fit(blank_, observations_, num_frames, options_, context_->stop);
+    FitProblem fit(CutCaptures(captures_, num_frames), options_, context_->stop);
     TrajectoryEvaluator* evaluator = fit.evaluator();
     const bool ok = evaluator->Evaluate(result_.coordinates);
     if (ok) {
@@ -98,8 +116,7 @@ class HorizonGrower {
     context_->num_iterations = stage_context_.num_iterations;
   }
 
-  const Scene& blank_;
-  const Observations& observations_;
+  const std::vector<FitCapture>& captures_;
   EstimatorOptions options_;
   OptimizerContext* context_;
   OptimizerContext stage_context_;
@@ -110,10 +127,10 @@ class HorizonGrower {
 
 }  // namespace
 
-GrownHorizon GrowHorizon(const Scene& blank, const Observations& observations,
+GrownHorizon GrowHorizon(const std::vector<FitCapture>& captures,
                          const Eigen::VectorXd& start, OptimizerContext* context,
                          const Checkpoint* resumed) {
-  return HorizonGrower(blank, observations, context).Run(start, resumed);
+  return HorizonGrower(captures, context).Run(start, resumed);
 }
 
 }  // namespace dpe

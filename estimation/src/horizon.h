@@ -12,10 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "dpe/engine/scene.h"
 #include "dpe/estimation/checkpoint.h"
 #include "dpe/estimation/estimator.h"
-#include "dpe/estimation/observations.h"
+#include "fit_setup.h"
 #include "optimizers.h"
 
 namespace dpe {
@@ -30,12 +29,13 @@ struct GrownHorizon {
 
 // Fits horizons shorter than all observed frames.
 //
-// @param blank    the scene without its values of what is estimated
+// @param captures over all their frames; one that is shorter than a horizon is in it
+//                 whole
 // @param start    coordinates to start from; need only be simulated for a few frames
 // @param context  of the fit: options, stop and iterations are used, and horizons
 //                 receives what was fitted
 // @param resumed  if not null, where to continue: in which horizon, from which point
-GrownHorizon GrowHorizon(const Scene& blank, const Observations& observations,
+GrownHorizon GrowHorizon(const std::vector<FitCapture>& captures,
                          const Eigen::VectorXd& start, OptimizerContext* context,
                          const Checkpoint* resumed = nullptr);
 

@@ -33,11 +33,11 @@ constexpr double kHomogeneous = 1e-10;
 
 class InverseDynamics {
  public:
-  InverseDynamics(Simulator* simulator, const Observations& observations,
-                  int num_frames, const std::vector<double>& total_mass)
-      : layout_(simulator->layout()),
-        scene_(simulator->scene()),
-        equations_(simulator, observations, num_frames),
+  InverseDynamics(const std::vector<InverseDynamicsMotion>& motions,
+                  const JointLayout& joint, const std::vector<double>& total_mass)
+      : motions_(motions),
+        layout_(joint.layout()),
+        equations_(motions, joint),
         total_mass_(total_mass),
         p_(Eigen::VectorXd::Zero(layout_.size())) {}
 
@@ -85,10 +85,11 @@ class InverseDynamics {
     equations_.Evaluate(p_, &constant, &jacobian);
     for (int object : equations_.objects()) {
       if (!IsEstimated(ParameterKind::kMass, object)) continue;
-      const double impulse = total_mass_[object] /
-                             scene_.objects[object].num_vertices() *
-                             std::max(scene_.gravity.norm(), 1.0) * scene_.delta;
-      if (equations_.ObjectRms(constant, object) > kHomogeneous * impulse) continue;
+      const auto impulse = [&](const Scene& scene) {
+        return total_mass_[object] / scene.objects[object].num_vertices() *
+               std::max(scene.gravity.norm(), 1.0) * scene.delta;
+      };
+      if (equations_.ObjectRms(constant, object, impulse) > kHomogeneous) continue;
       gauged_objects_.push_back(object);
       double longest = 0.0;
       for (const ParameterBlock& block : layout_.blocks()) {
@@ -180,6 +181,13 @@ class InverseDynamics {
     return values[values.size() / 2];
   }
 
+  const Scene& SceneOf(int segment) const {
+    for (const InverseDynamicsMotion& motion : motions_) {
+      if (motion.segment == segment) return motion.simulator->scene();
+    }
+    return motions_[0].simulator->scene();
+  }
+
   void FillUndetermined() {
     for (const ParameterBlock& block : layout_.blocks()) {
       if (!ParameterKindIsPositive(block.kind)) continue;
@@ -224,11 +232,12 @@ class InverseDynamics {
   void EstimateInitialStates() {
     for (const ParameterBlock& block : layout_.blocks()) {
       Eigen::VectorXd state;
-      if (block.kind == ParameterKind::kInitialVelocity) {
-        state = equations_.motion(block.object).InitialVelocity();
-      } else if (block.kind == ParameterKind::kInitialPosition) {
+      const ObservedMotion* motion = equations_.motion(block.object, block.segment);
+      if (block.kind == ParameterKind::kInitialVelocity && motion != nullptr) {
+        state = motion->InitialVelocity();
+      } else if (block.kind == ParameterKind::kInitialPosition && motion != nullptr) {
         // The motion is taken to start where the scene says.
-        state = scene_.objects[block.object].positions;
+        state = SceneOf(block.segment).objects[block.object].positions;
       } else {
         continue;
       }
@@ -260,8 +269,8 @@ class InverseDynamics {
     }
   }
 
+  const std::vector<InverseDynamicsMotion>& motions_;
   const ParameterLayout& layout_;
-  const Scene& scene_;
   StepEquations equations_;
   std::vector<double> total_mass_;
   std::vector<int> gauged_objects_;
@@ -283,30 +292,51 @@ bool InverseDynamicsApplies(const Scene& scene, const Observations& observations
   return true;
 }
 
-InverseDynamicsResult SolveInverseDynamics(Simulator* simulator,
-                                           const Observations& observations,
-                                           int num_frames,
-                                           const std::vector<double>& total_mass) {
-  const Scene& scene = simulator->scene();
+namespace {
+
+// The frames that the equations of a motion need.
+int MinFrames(const Scene& scene) {
+  bool needs_third_frame =
+      scene.integration_method == IntegrationMethod::kExplicitEuler;
+  for (const ClothObject& object : scene.objects) {
+    needs_third_frame = needs_third_frame || object.estimate_initial_velocity;
+  }
+  return needs_third_frame ? 3 : 2;
+}
+
+void RequireComplete(const Scene& scene, const Observations& observations) {
   if (!InverseDynamicsApplies(scene, observations)) {
     throw SceneError(
         "inverse dynamics needs every free vertex of the estimated objects observed at "
         "every frame; with fewer observations use --init=screen, scene or "
         "uniform:VALUE");
   }
-  bool needs_third_frame =
-      scene.integration_method == IntegrationMethod::kExplicitEuler;
-  for (const ClothObject& object : scene.objects) {
-    needs_third_frame = needs_third_frame || object.estimate_initial_velocity;
-  }
-  const int min_frames = needs_third_frame ? 3 : 2;
-  if (num_frames < min_frames) {
+}
+
+}  // namespace
+
+InverseDynamicsResult SolveInverseDynamics(Simulator* simulator,
+                                           const Observations& observations,
+                                           int num_frames,
+                                           const std::vector<double>& total_mass) {
+  const JointLayout joint({&simulator->scene()}, /*own_wind=*/true);
+  return SolveInverseDynamics({{simulator, &observations, num_frames, 0}}, joint,
+                              total_mass);
+}
+
+InverseDynamicsResult SolveInverseDynamics(
+    const std::vector<InverseDynamicsMotion>& motions, const JointLayout& joint,
+    const std::vector<double>& total_mass) {
+  for (const InverseDynamicsMotion& motion : motions) {
+    const Scene& scene = motion.simulator->scene();
+    RequireComplete(scene, *motion.observations);
+    if (motion.num_frames >= MinFrames(scene)) continue;
     InverseDynamicsResult result;
-    result.message =
-        "inverse dynamics needs at least " + std::to_string(min_frames) + " frames";
+    result.message = "inverse dynamics needs at least " +
+                     std::to_string(MinFrames(scene)) + " frames";
     return result;
   }
-  return InverseDynamics(simulator, observations, num_frames, total_mass).Solve();
+  return InverseDynamics(motions, joint, total_mass).Solve();
 }
 
 }  // namespace dpe

@@ -94,13 +94,8 @@ void AddNoise(const Scene& scene, double sigma, std::uint64_t seed, Observations
 
 namespace {
 
-struct SquaredErrors {
-  double sum = 0.0;  // m^2
-  long count = 0;
-};
-
 void AddVertexErrors(const Trajectory& trajectory, const Observations& observations,
-                     int num_frames, SquaredErrors* errors) {
+                     int first_frame, int num_frames, PositionErrors* errors) {
   const size_t num_objects =
       std::min(trajectory.positions.size(), observations.positions.size());
   for (size_t object = 0; object < num_objects; ++object) {
@@ -109,7 +104,7 @@ void AddVertexErrors(const Trajectory& trajectory, const Observations& observati
     if (simulated.size() == 0 || observed.size() == 0) continue;
     const int frames =
         std::min<int>(num_frames, std::min(simulated.cols(), observed.cols()));
-    for (int f = 0; f < frames; ++f) {
+    for (int f = first_frame; f < frames; ++f) {
       for (int v = 0; v < simulated.rows() / 3; ++v) {
         if (!observations.IsObserved(static_cast<int>(object), v, f)) continue;
         errors->sum +=
@@ -122,11 +117,11 @@ void AddVertexErrors(const Trajectory& trajectory, const Observations& observati
 }
 
 void AddSampleErrors(const Trajectory& trajectory, const Observations& observations,
-                     int num_frames, SquaredErrors* errors) {
+                     int first_frame, int num_frames, PositionErrors* errors) {
   num_frames = std::min(num_frames, trajectory.num_frames());
   for (const MarkerSample& sample : observations.samples) {
     const Marker& marker = observations.markers[sample.marker];
-    if (!IsWithinFrames(sample.time, num_frames) ||
+    if (sample.time < first_frame || !IsWithinFrames(sample.time, num_frames) ||
         trajectory.positions[marker.object].size() == 0) {
       continue;
     }
@@ -153,13 +148,22 @@ Eigen::Vector3d MarkerPosition(const Trajectory& trajectory, const Marker& marke
   return position;
 }
 
+double PositionErrors::Rms() const {
+  if (count == 0) return std::numeric_limits<double>::quiet_NaN();
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+void AddPositionErrors(const Trajectory& trajectory, const Observations& observations,
+                       int num_frames, PositionErrors* errors, int first_frame) {
+  AddVertexErrors(trajectory, observations, first_frame, num_frames, errors);
+  AddSampleErrors(trajectory, observations, first_frame, num_frames, errors);
+}
+
 double RmsPositionError(const Trajectory& trajectory, const Observations& observations,
-                        int num_frames) {
-  SquaredErrors errors;
-  AddVertexErrors(trajectory, observations, num_frames, &errors);
-  AddSampleErrors(trajectory, observations, num_frames, &errors);
-  if (errors.count == 0) return std::numeric_limits<double>::quiet_NaN();
-  return std::sqrt(errors.sum / static_cast<double>(errors.count));
+                        int num_frames, int first_frame) {
+  PositionErrors errors;
+  AddPositionErrors(trajectory, observations, num_frames, &errors, first_frame);
+  return errors.Rms();
 }
 
 }  // namespace dpe

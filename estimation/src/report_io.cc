@@ -75,13 +75,23 @@ Json Smoothness(const EstimatorSummary& summary) {
   return {{"priors", array}, {"candidates", candidates}};
 }
 
+Json SensitivityToJson(const MotionSensitivity& sensitivity) {
+  if (!sensitivity.ok) return {{"ok", false}, {"message", sensitivity.message}};
+  return {{"ok", true},
+          {"growth", JsonNumber(sensitivity.growth)},
+          {"doubling_time_s", JsonNumber(sensitivity.doubling_time)},
+          {"growth_by_frame", JsonNumbers(sensitivity.growth_by_frame)},
+          {"text", sensitivity.text}};
+}
+
 }  // namespace
 
 std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
                          const EstimatorSummary& summary,
                          const Validation& validation) {
   Json report;
-  report["scene"] = job.scene_path;
+  // Without a scene file the scene was made of the target.
+  report["scene"] = job.scene_path.empty() ? Json(nullptr) : Json(job.scene_path);
   report["settings"] = SettingsString(input.scene);
   report["target"] = job.target_path.empty() ? Json(nullptr) : Json(job.target_path);
   report["frames"] = summary.num_frames;
@@ -105,6 +115,7 @@ std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
   report["validation"] = {
       {"frames", validation.num_frames},
       {"rms_position_error_m", JsonNumber(validation.rms)},
+      {"held_out_rms_position_error_m", JsonNumber(validation.held_out_rms)},
       {"note", validation.note.empty() ? Json(nullptr) : Json(validation.note)}};
   report["parameter_deviation_percent"] =
       input.truth_is_known && std::isfinite(summary.final_cost)
@@ -118,6 +129,7 @@ std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
   report["smoothness"] = Smoothness(summary);
   report["horizons"] = Horizons(summary);
   report["parameters"] = Parameters(input, summary);
+  report["sensitivity"] = SensitivityToJson(summary.sensitivity);
   report["uncertainty"] = UncertaintyToJson(summary.uncertainty);
   // Text that is not UTF-8 (a file name, say) must not make the report fail.
   return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

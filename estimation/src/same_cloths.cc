@@ -1,6 +1,8 @@
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "dpe/estimation/joint_layout.h"
 
@@ -18,8 +20,12 @@ bool Differ(double a, double b, double tolerance) {
 
 class ClothComparison {
  public:
-  ClothComparison(const Scene& first, const Scene& other, int scene)
-      : first_(first), other_(other), scene_(scene) {}
+  ClothComparison(const Scene& first, const Scene& other, std::string first_name,
+                  std::string other_name)
+      : first_(first),
+        other_(other),
+        first_name_(std::move(first_name)),
+        other_name_(std::move(other_name)) {}
 
   void Check() {
     Require("objects", first_.objects.size(), other_.objects.size());
@@ -37,10 +43,10 @@ class ClothComparison {
   [[noreturn]] void Fail(const std::string& what, const std::string& first,
                          const std::string& other, const std::string& hint = "") {
     std::ostringstream message;
-    message << "scenes 0 and " << scene_ << " are not of the same cloths: "
+    message << first_name_ << " and " << other_name_ << " are not of the same cloths: "
             << (object_ < 0 ? "" : "objects[" + std::to_string(object_) + "].") << what
-            << " is " << first << " in scene 0 and " << other << " in scene " << scene_
-            << "; accepted are equal ones" << hint;
+            << " is " << first << " in " << first_name_ << " and " << other << " in "
+            << other_name_ << "; accepted are equal ones" << hint;
     throw SceneError(message.str());
   }
 
@@ -59,16 +65,32 @@ class ClothComparison {
     Fail(what, a.str(), b.str(), hint);
   }
 
-  void RequireSame(const std::string& what, bool is_same) {
-    if (!is_same) Fail(what, "one", "another");
+  // Lists of as many vertices (or groups) each.
+  template <typename List>
+  void RequireSameLists(const std::string& what, const List& first, const List& other) {
+    for (size_t i = 0; i < first.size(); ++i) {
+      if (first[i] == other[i]) continue;
+      Fail(what + "[" + std::to_string(i) + "]", Text(first[i]), Text(other[i]));
+    }
+  }
+
+  static std::string Text(int number) { return std::to_string(number); }
+
+  template <size_t kSize>
+  static std::string Text(const std::array<int, kSize>& numbers) {
+    std::string text;
+    for (const int number : numbers) {
+      text += (text.empty() ? "" : "-") + std::to_string(number);
+    }
+    return text;
   }
 
   void CheckTopology(const ClothObject& a, const ClothObject& b) {
     Require("vertPos: the number of vertices", a.num_vertices(), b.num_vertices());
     Require("springs: their number", a.springs.size(), b.springs.size());
     Require("triangles: their number", a.triangles.size(), b.triangles.size());
-    RequireSame("springs", a.springs == b.springs);
-    RequireSame("triangles", a.triangles == b.triangles);
+    RequireSameLists("springs", a.springs, b.springs);
+    RequireSameLists("triangles", a.triangles, b.triangles);
   }
 
   void CheckModes(const ClothObject& a, const ClothObject& b) {
@@ -85,10 +107,10 @@ class ClothComparison {
       Fail("estimate.dragCoefficient", flag(a.estimate_drag), flag(b.estimate_drag));
     }
     if (a.stiffness_mode == ParameterMode::kGroup) {
-      RequireSame("springGroup", SpringGroups(a) == SpringGroups(b));
+      RequireSameLists("springGroup", SpringGroups(a), SpringGroups(b));
     }
     if (a.mass_mode == ParameterMode::kGroup) {
-      RequireSame("vertexGroup", VertexGroups(a) == VertexGroups(b));
+      RequireSameLists("vertexGroup", VertexGroups(a), VertexGroups(b));
     }
   }
 
@@ -129,15 +151,19 @@ class ClothComparison {
 
   const Scene& first_;
   const Scene& other_;
-  int scene_;
+  const std::string first_name_, other_name_;
   int object_ = -1;
 };
 
 }  // namespace
 
-void RequireSameCloths(const std::vector<const Scene*>& scenes) {
+void RequireSameCloths(const std::vector<const Scene*>& scenes,
+                       const std::vector<std::string>& names) {
+  const auto name = [&](size_t s) {
+    return s < names.size() ? names[s] : "scene " + std::to_string(s);
+  };
   for (size_t s = 1; s < scenes.size(); ++s) {
-    ClothComparison(*scenes[0], *scenes[s], static_cast<int>(s)).Check();
+    ClothComparison(*scenes[0], *scenes[s], name(0), name(s)).Check();
   }
 }
 

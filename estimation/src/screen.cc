@@ -37,12 +37,22 @@ std::vector<double> LogSpaced(int per_decade) {
   return values;
 }
 
+// Of the longest segment.
+int MostFrames(const TrajectoryEvaluator& evaluator) {
+  int most = 0;
+  for (int s = 0; s < evaluator.num_segments(); ++s) {
+    most = std::max(most, evaluator.num_frames(s));
+  }
+  return most;
+}
+
 class Screen {
  public:
   Screen(StopControl* stop, TrajectoryEvaluator* evaluator)
       : stop_(stop),
         evaluator_(evaluator),
-        horizon_(std::min(evaluator->num_frames(), kShortHorizon)) {
+        num_frames_(MostFrames(*evaluator)),
+        horizon_(std::min(num_frames_, kShortHorizon)) {
     for (const ParameterBlock& block : evaluator->layout().blocks()) {
       if (ParameterKindIsPositive(block.kind)) blocks_.push_back(&block);
     }
@@ -59,8 +69,7 @@ class Screen {
     for (const Trial& trial : trials_) {
       if (finalists == kNumFinalists || stop_->Poll()) break;
       double cost = 0.0;
-      if (!evaluator_->CostOverHorizon(trial.coordinates, evaluator_->num_frames(),
-                                       &cost)) {
+      if (!evaluator_->CostOverHorizon(trial.coordinates, num_frames_, &cost)) {
         continue;
       }
       ++finalists;
@@ -128,6 +137,7 @@ class Screen {
 
   StopControl* stop_;
   TrajectoryEvaluator* evaluator_;
+  int num_frames_;
   int horizon_;
   std::vector<const ParameterBlock*> blocks_;
   std::vector<Trial> trials_;
@@ -139,6 +149,7 @@ class Screen {
 Eigen::VectorXd FindBetterTrialPoint(StopControl* stop,
                                      TrajectoryEvaluator* evaluator) {
   const Eigen::VectorXd found = evaluator->best_coordinates();
+  const int num_frames = MostFrames(*evaluator);
   double best = (1.0 - kBetter) * evaluator->best_cost();
   Eigen::VectorXd better;
   for (int i = 0; i < found.size(); ++i) {
@@ -150,8 +161,7 @@ Eigen::VectorXd FindBetterTrialPoint(StopControl* stop,
       // Costs are sums over frames: the first frames alone rule most trials out.
       double cost = 0.0;
       if (!evaluator->CostOverHorizon(trial, kShortHorizon, &cost) || cost >= best ||
-          !evaluator->CostOverHorizon(trial, evaluator->num_frames(), &cost) ||
-          cost >= best) {
+          !evaluator->CostOverHorizon(trial, num_frames, &cost) || cost >= best) {
         continue;
       }
       best = cost;

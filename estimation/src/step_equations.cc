@@ -2,28 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dpe {
 
-StepEquations::StepEquations(Simulator* simulator, const Observations& observations,
-                             int num_frames)
-    : simulator_(simulator), first_rows_({0}) {
-  const Scene& scene = simulator->scene();
-  for (int object = 0; object < static_cast<int>(scene.objects.size()); ++object) {
-    if (!simulator->is_simulated(object)) continue;
-    objects_.push_back(object);
-    motions_.emplace_back(scene, object, observations, num_frames);
-    const int num_steps = motions_.back().num_steps() - motions_.back().first_step();
-    first_rows_.push_back(first_rows_.back() +
-                          3 * scene.objects[object].num_vertices() *
-                              std::max(num_steps, 0));
+StepEquations::StepEquations(const std::vector<InverseDynamicsMotion>& motions,
+                             const JointLayout& joint)
+    : joint_(joint) {
+  for (const InverseDynamicsMotion& motion : motions) {
+    const Scene& scene = motion.simulator->scene();
+    for (int object = 0; object < static_cast<int>(scene.objects.size()); ++object) {
+      if (!motion.simulator->is_simulated(object)) continue;
+      ObservedMotion observed(scene, object, *motion.observations, motion.num_frames);
+      const int num_steps = std::max(observed.num_steps() - observed.first_step(), 0);
+      const int num_rows = 3 * scene.objects[object].num_vertices() * num_steps;
+      parts_.push_back({motion.simulator, motion.segment, object, std::move(observed),
+                        num_step_rows_, num_rows});
+      num_step_rows_ += num_rows;
+      objects_.push_back(object);
+    }
   }
+  std::sort(objects_.begin(), objects_.end());
+  objects_.erase(std::unique(objects_.begin(), objects_.end()), objects_.end());
 }
 
 void StepEquations::FixTotalMass(int object, double total_mass, double weight) {
   TotalMassRow row;
   row.coefficients.setZero(num_parameters());
-  for (const ParameterBlock& block : simulator_->layout().blocks()) {
+  for (const ParameterBlock& block : joint_.layout().blocks()) {
     if (block.object != object || block.kind != ParameterKind::kMass) continue;
     for (int local : block.element_to_local) {
       if (local >= 0) row.coefficients[block.offset + local] += weight;
@@ -33,38 +39,43 @@ void StepEquations::FixTotalMass(int object, double total_mass, double weight) {
   total_mass_rows_.push_back(std::move(row));
 }
 
-const ObservedMotion& StepEquations::motion(int object) const {
-  const auto it = std::find(objects_.begin(), objects_.end(), object);
-  return motions_[it - objects_.begin()];
+const ObservedMotion* StepEquations::motion(int object, int segment) const {
+  for (const Part& part : parts_) {
+    // Without other motions a block is not said to be one's own.
+    const bool is_of_segment = segment < 0 || part.segment == segment;
+    if (part.object == object && is_of_segment) return &part.motion;
+  }
+  return nullptr;
 }
 
 void StepEquations::Evaluate(const Eigen::VectorXd& parameters,
                              Eigen::VectorXd* residual,
                              Eigen::SparseMatrix<double>* jacobian) const {
-  const int num_step_rows = first_rows_.back();
-  const int num_rows = num_step_rows + static_cast<int>(total_mass_rows_.size());
+  const int num_rows = num_step_rows_ + static_cast<int>(total_mass_rows_.size());
   residual->setZero(num_rows);
   std::vector<Eigen::Triplet<double>> triplets;
   std::vector<Eigen::Triplet<double>> step_triplets;
   Eigen::VectorXd x0, v0, x1, v1, r;
-  const double h = simulator_->scene().delta;
-  for (size_t i = 0; i < objects_.size(); ++i) {
-    int row = first_rows_[i];
-    for (int n = motions_[i].first_step(); n < motions_[i].num_steps(); ++n) {
-      motions_[i].GetStep(n, &x0, &v0, &x1, &v1);
+  for (const Part& part : parts_) {
+    int row = part.first_row;
+    const double h = part.simulator->scene().delta;
+    const Eigen::VectorXd own = joint_.Gather(parameters, part.segment);
+    const std::vector<int>& columns = joint_.indices(part.segment);
+    for (int n = part.motion.first_step(); n < part.motion.num_steps(); ++n) {
+      part.motion.GetStep(n, &x0, &v0, &x1, &v1);
       step_triplets.clear();
-      simulator_->StepResidual(objects_[i], h, x0, v0, x1, v1, parameters, &r,
-                               &step_triplets);
+      part.simulator->StepResidual(part.object, h, x0, v0, x1, v1, own, &r,
+                                   &step_triplets);
       residual->segment(row, r.size()) = r;
       for (const Eigen::Triplet<double>& t : step_triplets) {
-        triplets.emplace_back(row + t.row(), t.col(), t.value());
+        triplets.emplace_back(row + t.row(), columns[t.col()], t.value());
       }
       row += static_cast<int>(r.size());
     }
   }
   for (size_t i = 0; i < total_mass_rows_.size(); ++i) {
     const TotalMassRow& mass_row = total_mass_rows_[i];
-    const int row = num_step_rows + static_cast<int>(i);
+    const int row = num_step_rows_ + static_cast<int>(i);
     (*residual)[row] = mass_row.coefficients.dot(parameters) - mass_row.rhs;
     for (int j = 0; j < mass_row.coefficients.size(); ++j) {
       if (mass_row.coefficients[j] != 0.0) {
@@ -77,12 +88,16 @@ void StepEquations::Evaluate(const Eigen::VectorXd& parameters,
   jacobian->setFromTriplets(triplets.begin(), triplets.end());
 }
 
-double StepEquations::ObjectRms(const Eigen::VectorXd& residual, int object) const {
-  const size_t i =
-      std::find(objects_.begin(), objects_.end(), object) - objects_.begin();
-  const int num_rows = first_rows_[i + 1] - first_rows_[i];
-  if (num_rows == 0) return 0.0;
-  return residual.segment(first_rows_[i], num_rows).norm() / std::sqrt(num_rows);
+double StepEquations::ObjectRms(const Eigen::VectorXd& residual, int object,
+                                const std::function<double(const Scene&)>& unit) const {
+  double largest = 0.0;
+  for (const Part& part : parts_) {
+    if (part.object != object || part.num_rows == 0) continue;
+    const double rms = residual.segment(part.first_row, part.num_rows).norm() /
+                       std::sqrt(part.num_rows);
+    largest = std::max(largest, rms / unit(part.simulator->scene()));
+  }
+  return largest;
 }
 
 }  // namespace dpe

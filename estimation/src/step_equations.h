@@ -1,37 +1,46 @@
-// The step equations of all objects and steps, one below the other, as one residual
-// vector of the parameters with its sparse Jacobian.
+// The step equations of all motions, objects and steps, one below the other, as one
+// residual vector of the parameters with its sparse Jacobian.
 #ifndef DPE_ESTIMATION_STEP_EQUATIONS_H_
 #define DPE_ESTIMATION_STEP_EQUATIONS_H_
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <functional>
 #include <vector>
 
 #include "dpe/engine/simulator.h"
+#include "dpe/estimation/inverse_dynamics.h"
+#include "dpe/estimation/joint_layout.h"
 #include "observed_motion.h"
 
 namespace dpe {
 
 class StepEquations {
  public:
-  // The simulator must outlive this object; every simulated object must be observed.
-  StepEquations(Simulator* simulator, const Observations& observations, int num_frames);
+  // Simulators and layout must outlive this object; every simulated object must be
+  // observed.
+  StepEquations(const std::vector<InverseDynamicsMotion>& motions,
+                const JointLayout& joint);
 
   // Adds the row  sum of the masses of `object`'s free vertices = total_mass (kg),
   // weighted like the other rows.
   void FixTotalMass(int object, double total_mass, double weight);
 
-  int num_parameters() const { return simulator_->layout().size(); }
+  int num_parameters() const { return joint_.layout().size(); }
+  // Those that are simulated in any motion, ascending.
   const std::vector<int>& objects() const { return objects_; }
-  const ObservedMotion& motion(int object) const;
+  // Null where the object is not simulated in that segment, or the segment has none.
+  const ObservedMotion* motion(int object, int segment) const;
 
   // @param residual  all rows, kg m/s
   // @param jacobian  if not null, receives d(residual)/dp
   void Evaluate(const Eigen::VectorXd& parameters, Eigen::VectorXd* residual,
                 Eigen::SparseMatrix<double>* jacobian) const;
 
-  // The part of the last gauge-free residual that belongs to one object, RMS per row.
-  double ObjectRms(const Eigen::VectorXd& residual, int object) const;
+  // The part of the last gauge-free residual that belongs to one object, RMS per row of
+  // the motion where that is greatest in relation to `unit` of its scene.
+  double ObjectRms(const Eigen::VectorXd& residual, int object,
+                   const std::function<double(const Scene&)>& unit) const;
 
  private:
   struct TotalMassRow {
@@ -39,10 +48,20 @@ class StepEquations {
     double rhs = 0.0;
   };
 
-  Simulator* simulator_;
+  // One object of one motion.
+  struct Part {
+    Simulator* simulator;
+    int segment;
+    int object;
+    ObservedMotion motion;
+    int first_row;
+    int num_rows;
+  };
+
+  const JointLayout& joint_;
+  std::vector<Part> parts_;
   std::vector<int> objects_;
-  std::vector<ObservedMotion> motions_;  // one per entry of objects_
-  std::vector<int> first_rows_;          // the same, and the total at the end
+  int num_step_rows_ = 0;
   std::vector<TotalMassRow> total_mass_rows_;
 };
 

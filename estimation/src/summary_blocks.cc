@@ -3,7 +3,14 @@
 #include <cmath>
 #include <limits>
 
+#include "dpe/estimation/joint_layout.h"
+
 namespace dpe {
+namespace {
+
+constexpr double kSameTruth = 1e-12;  // relative
+
+}  // namespace
 
 std::string TerminationName(Termination termination) {
   switch (termination) {
@@ -29,6 +36,7 @@ std::vector<EstimatedBlock> MakeEstimatedBlocks(const ParameterLayout& layout,
   for (const ParameterBlock& block : layout.blocks()) {
     EstimatedBlock estimated;
     estimated.object = block.object;
+    estimated.capture = block.segment;
     estimated.kind = ParameterKindName(block.kind);
     estimated.mode = ParameterModeLetter(block.mode);
     estimated.unit = ParameterKindUnit(block.kind);
@@ -47,19 +55,45 @@ std::vector<EstimatedBlock> MakeEstimatedBlocks(const ParameterLayout& layout,
   return result;
 }
 
+TrueParameters TrueParametersOf(const std::vector<const Scene*>& truths) {
+  const JointLayout joint(truths, /*own_wind=*/true);
+  TrueParameters truth;
+  truth.values = joint.Extract(truths);
+  truth.is_known.assign(joint.layout().blocks().size(), 1);
+  for (int s = 0; s < joint.num_segments(); ++s) {
+    const ParameterLayout own(*truths[s]);
+    const Eigen::VectorXd own_values = own.Extract(*truths[s]);
+    const Eigen::VectorXd joint_values = joint.Gather(truth.values, s);
+    for (int b = 0; b < static_cast<int>(own.blocks().size()); ++b) {
+      const ParameterBlock& block = own.blocks()[b];
+      const auto here = own_values.segment(block.offset, block.size).array();
+      const auto there = joint_values.segment(block.offset, block.size).array();
+      const bool is_same = ((here - there).abs() <= kSameTruth * there.abs()).all();
+      if (own.Represents(*truths[s], b) && is_same) continue;
+      truth.is_known[joint.JointBlock(s, b)] = 0;
+    }
+  }
+  return truth;
+}
+
 double ParameterDeviationPercent(const EstimatorSummary& summary, const Scene& truth) {
-  const ParameterLayout layout(summary.scene);
-  const Eigen::VectorXd true_values = layout.Extract(truth);
+  return ParameterDeviationPercent(summary, std::vector<const Scene*>{&truth});
+}
+
+double ParameterDeviationPercent(const EstimatorSummary& summary,
+                                 const std::vector<const Scene*>& truths) {
+  const JointLayout joint(truths, /*own_wind=*/true);
+  const TrueParameters truth = TrueParametersOf(truths);
   double sum = 0.0;
   int count = 0;
-  for (int b = 0; b < static_cast<int>(layout.blocks().size()); ++b) {
-    if (!layout.Represents(truth, b)) continue;
-    const ParameterBlock& block = layout.blocks()[b];
+  for (size_t b = 0; b < truth.is_known.size(); ++b) {
+    if (!truth.is_known[b]) continue;
+    const ParameterBlock& block = joint.layout().blocks()[b];
     for (int j = block.offset; j < block.offset + block.size; ++j) {
       // Relative to nothing: a true value of zero has no relative deviation.
-      if (true_values[j] == 0.0) continue;
+      if (truth.values[j] == 0.0) continue;
       sum +=
-          std::abs(summary.parameters[j] - true_values[j]) / std::abs(true_values[j]);
+          std::abs(summary.parameters[j] - truth.values[j]) / std::abs(truth.values[j]);
       ++count;
     }
   }

@@ -35,6 +35,10 @@ constexpr double kHighest = 1e9;
 constexpr double kFarFromMedian = 1e6;
 // Least noise, m: far below rounding errors of positions of metres.
 constexpr double kLeastNoise = 1e-20;
+// An autocorrelation of residuals is mentioned above this and above as many of the
+// standard deviations that it has by chance.
+constexpr double kLeastAutocorrelation = 0.1;
+constexpr double kChance = 5.0;
 // Pairs of parameters reported as correlated.
 constexpr double kLeastCorrelation = 0.9;
 constexpr size_t kMaxPairs = 10;
@@ -76,6 +80,11 @@ class UncertaintyAnalysis {
     result_.names = ParameterNames(*input_.scene, *input_.layout);
     result_.noise_is_known = input_.noise_is_known;
     result_.reduced_chi_square = kNan;
+    const double chance =
+        kChance / std::sqrt(std::max<double>(1.0, input_.num_residual_pairs));
+    if (input_.residual_correlation > std::max(kLeastAutocorrelation, chance)) {
+      result_.residual_correlation = input_.residual_correlation;
+    }
     data_ = AnalyseInformation(input_.data_triangle * space_.unit.asDiagonal(),
                                options_.rank_tolerance);
     if (!data_.ok) return Failure("the decomposition of the Jacobian did not converge");

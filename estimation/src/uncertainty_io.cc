@@ -64,6 +64,7 @@ nlohmann::ordered_json UncertaintyToJson(const Uncertainty& uncertainty) {
   json["noise"] = JsonNumber(uncertainty.noise);
   json["degrees_of_freedom"] = uncertainty.degrees_of_freedom;
   json["reduced_chi_square"] = JsonNumber(uncertainty.reduced_chi_square);
+  json["residual_correlation"] = JsonNumber(uncertainty.residual_correlation);
   json["rank"] = uncertainty.rank;
   json["weak_directions"] = uncertainty.num_weak_directions;
   json["parameters"] = Json::array();
@@ -84,6 +85,8 @@ nlohmann::ordered_json UncertaintyToJson(const Uncertainty& uncertainty) {
   for (const UndeterminedDirection& direction : uncertainty.directions) {
     json["directions"].push_back(Direction(uncertainty, direction));
   }
+  json["determined"] =
+      uncertainty.ok ? Json(DeterminedText(uncertainty)) : Json(nullptr);
   json["statements"] = uncertainty.statements;
   return json;
 }

@@ -26,6 +26,7 @@ class StatementMaker {
 
   std::vector<std::string> Make() {
     Noise();
+    Correlation();
     Limits();
     SingleParameters();
     Directions();
@@ -70,6 +71,19 @@ class StatementMaker {
       }
     }
     if (!text.str().empty()) statements_.push_back(text.str());
+  }
+
+  // With errors that go on like those of an autoregressive process of first order, n
+  // residuals are worth n (1 - rho) / (1 + rho) independent ones.
+  void Correlation() {
+    const double rho = uncertainty_.residual_correlation;
+    if (rho <= 0.0) return;
+    if (!uncertainty_.noise_is_known && uncertainty_.noise < kRoundingNoise) return;
+    statements_.push_back(
+        "the residuals of a frame and the next are correlated (" + Short(rho) +
+        "): they are errors of the model rather than noise, and the standard "
+        "deviations, which take them for noise, are too small by a factor of about " +
+        Short(std::sqrt((1.0 + rho) / std::max(1.0 - rho, 1e-6))));
   }
 
   // One sentence per block and number of parameters with flag `with` and none of
@@ -225,6 +239,30 @@ std::vector<std::string> MakeStatements(const Uncertainty& uncertainty,
   return StatementMaker(uncertainty, options).Make();
 }
 
+std::string DeterminedText(const Uncertainty& uncertainty) {
+  const unsigned not_determined =
+      kNoInfluence | kUndetermined | kWeaklyDetermined | kAtLowerLimit | kAtUpperLimit;
+  std::vector<std::string> others;
+  int count = 0;
+  for (const BlockUncertainty& block : uncertainty.blocks) {
+    for (const unsigned flags : block.flags) {
+      if ((flags & not_determined) != 0) others.push_back(uncertainty.names[count]);
+      ++count;
+    }
+  }
+  const std::string all = std::to_string(count) +
+                          (count == 1 ? " parameter was" : " parameters were") +
+                          " determined";
+  if (others.empty()) return (count == 1 ? "the " : "all ") + all;
+  std::string text = std::to_string(count - others.size()) + " of " + all;
+  if (others.size() > kNamed + 1) {
+    const std::string rest = std::to_string(others.size() - kNamed) + " more";
+    others.resize(kNamed);
+    others.push_back(rest);
+  }
+  return text + ", not or hardly " + Listed(others);
+}
+
 std::vector<std::string> UncertaintyLines(const Uncertainty& uncertainty) {
   constexpr int kListed = 3;
   std::vector<std::string> lines;
@@ -242,6 +280,7 @@ std::vector<std::string> UncertaintyLines(const Uncertainty& uncertainty) {
     }
     offset += size;
   }
+  if (uncertainty.ok) lines.push_back(DeterminedText(uncertainty));
   lines.insert(lines.end(), uncertainty.statements.begin(),
                uncertainty.statements.end());
   if (!uncertainty.ok) {

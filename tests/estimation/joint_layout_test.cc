@@ -170,7 +170,7 @@ TEST(JointLayout, OtherClothsAreRefused) {
        "objects[0].vertPos: the number of vertices is 16 in scene 0 and 25"},
       {"springs",
        [](Scene* s) { std::swap(s->objects[0].springs[0], s->objects[0].springs[1]); },
-       "objects[0].springs is one in scene 0 and another"},
+       "objects[0].springs[0] is 0-4 in scene 0 and 0-5"},
       {"triangles",
        [](Scene* s) {
          std::swap(s->objects[0].triangles[0], s->objects[0].triangles[1]);

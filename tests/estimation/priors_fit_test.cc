@@ -175,10 +175,11 @@ TEST_F(PriorsFitTest, WithoutNoiseAPriorIsRefused) {
 
 TEST_F(PriorsFitTest, CheckpointsAreOfTheSamePriors) {
   Checkpoint checkpoint;
-  checkpoint.problem = FingerprintOf(scene_, target_, options_);
+  checkpoint.problem = FingerprintOf({{&scene_, &target_, ""}}, options_);
   const auto error = [&] {
     try {
-      RequireSameProblem(checkpoint, FingerprintOf(scene_, target_, options_), "c");
+      RequireSameProblem(checkpoint, FingerprintOf({{&scene_, &target_, ""}}, options_),
+                         "c");
     } catch (const SceneError& error) {
       return std::string(error.what());
     }
@@ -189,7 +190,7 @@ TEST_F(PriorsFitTest, CheckpointsAreOfTheSamePriors) {
   options_.smoothness = SmoothnessFromText("stiffness=3");
   EXPECT_THAT(error(), AllOf(HasSubstr("priors (not given in the checkpoint, drag"),
                              HasSubstr("smoothness (not given")));
-  checkpoint.problem = FingerprintOf(scene_, target_, options_);
+  checkpoint.problem = FingerprintOf({{&scene_, &target_, ""}}, options_);
   options_.smoothness = SmoothnessFromText("stiffness=4");
   EXPECT_THAT(error(),
               AllOf(HasSubstr("smoothness (stiffness=3 in the checkpoint, stiffness=4"),

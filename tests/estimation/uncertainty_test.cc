@@ -162,6 +162,30 @@ TEST(UncertaintyTest, ResidualsThatDoNotFitTheNoiseAreReported) {
   EXPECT_THAT(ComputeUncertainty(input).statements, IsEmpty());
 }
 
+TEST(UncertaintyTest, ErrorsThatLastAreToldFromNoise) {
+  const LinearProblem problem = SevenParameters();
+  UncertaintyInput input = problem.Input(4.0 * RandomMatrix(1007, 7, 1));
+  input.num_residual_pairs = 1000;
+  input.residual_correlation = 0.15;  // 1 / sqrt(1000) = 0.03
+  EXPECT_EQ(ComputeUncertainty(input).residual_correlation, 0.0);
+  input.residual_correlation = 0.6;
+  const Uncertainty result = ComputeUncertainty(input);
+  EXPECT_EQ(result.residual_correlation, 0.6);
+  EXPECT_TRUE(AnyContains(result.statements, "correlated (0.6)"));
+  EXPECT_TRUE(AnyContains(result.statements, "factor of about 2"));
+}
+
+TEST(UncertaintyTest, SaysWhatWasDetermined) {
+  const LinearProblem problem = SevenParameters();
+  Eigen::MatrixXd jacobian = 4.0 * RandomMatrix(1007, 7, 1);
+  EXPECT_EQ(DeterminedText(ComputeUncertainty(problem.Input(jacobian))),
+            "all 7 parameters were determined");
+  jacobian.col(2) *= 1e-4;
+  const Uncertainty result = ComputeUncertainty(problem.Input(jacobian));
+  EXPECT_EQ(DeterminedText(result),
+            "6 of 7 parameters were determined, not or hardly " + result.names[2]);
+}
+
 struct PatternCase {
   friend void PrintTo(const PatternCase& c, std::ostream* out) { *out << c.text; }
 
@@ -369,7 +393,7 @@ TEST(UncertaintyTest, ManyUndeterminedParametersShareASentence) {
   EXPECT_LT(result.statements.size(), 8u);
   const std::vector<std::string> lines = UncertaintyLines(result);
   EXPECT_THAT(lines[0], HasSubstr("40 not determined"));
-  EXPECT_EQ(lines.size(), result.statements.size() + 1);
+  EXPECT_EQ(lines.size(), result.statements.size() + 2);
 }
 
 TEST(UncertaintyTest, LinesAndJsonSayTheSame) {

@@ -125,8 +125,9 @@ void ProgressTable::Tick(double seconds) {
 
 void PrintTask(const EstimationJob& job, const EstimationInput& input) {
   const ParameterLayout layout(input.scene);
-  std::cout << "Scene " << job.scene_path << ", settings "
-            << SettingsString(input.scene) << ": " << layout.size()
+  std::cout << "Scene "
+            << (job.scene_path.empty() ? "made of the target" : job.scene_path)
+            << ", settings " << SettingsString(input.scene) << ": " << layout.size()
             << " parameters to fit to " << input.num_frames << " frames of "
             << (job.target_path.empty() ? "the scene's own motion" : job.target_path)
             << std::endl;
@@ -149,11 +150,18 @@ void PrintSummary(const EstimationInput& input, const EstimatorSummary& summary,
       std::cout << "RMS position error over " << validation.num_frames
                 << " frames (validation): " << Format(validation.rms) << " m\n";
     }
+    if (std::isfinite(validation.held_out_rms)) {
+      std::cout << "RMS position error over the "
+                << validation.num_frames - summary.num_frames
+                << " frames after them (held out): " << Format(validation.held_out_rms)
+                << " m\n";
+    }
     if (!validation.note.empty()) std::cout << "Note: " << validation.note << "\n";
     std::cout.flush();  // the table goes past it
     PrintSmoothness(summary);
     PrintBlocks(input, summary);
     PrintUncertainty(summary.uncertainty);
+    if (summary.sensitivity.ok) std::cout << summary.sensitivity.text << "\n";
     if (input.truth_is_known) {
       const double deviation = ParameterDeviationPercent(summary, input.scene);
       std::cout << "Mean deviation from the true parameters: " << Format(deviation)

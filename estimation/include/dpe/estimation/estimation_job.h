@@ -11,12 +11,14 @@
 #include "dpe/estimation/estimator.h"
 #include "dpe/estimation/load_target.h"
 #include "dpe/estimation/observations.h"
+#include "dpe/estimation/scene_from_target.h"
 #include "dpe/estimation/trajectory_io.h"
 
 namespace dpe {
 
 struct EstimationJob {
-  std::string scene_path;
+  std::string scene_path;  // empty: the scene is made of the target
+  SceneFromTargetOptions scene_from_target;
   // What to estimate, as ApplySettings reads it; empty: as the scene says.
   std::string settings;
   // More to estimate: "damping", "drag", "wind", "initial_velocity", of all objects
@@ -50,8 +52,11 @@ struct EstimationInput {
 };
 
 struct Validation {
-  int num_frames = 0;     // 0: there was none
-  double rms = 0.0;       // m; NaN if the rollout failed
+  int num_frames = 0;  // 0: there was none
+  double rms = 0.0;    // m; NaN if the rollout failed
+  // m, of the frames that were not fitted alone; NaN without any, or if the rollout
+  // failed
+  double held_out_rms = 0.0;
   Trajectory trajectory;  // of the fitted scene, as many frames as fitted or validated
   std::string note;       // why there is no RMS
 };
@@ -78,7 +83,8 @@ std::vector<std::string> WriteResults(const EstimationJob& job,
                                       const Validation& validation,
                                       const std::string& output_dir);
 
-// "<scene>_<settings>", the scene being its file name without extension.
+// "<scene>_<settings>", the scene being its file name without extension, or that of the
+// target it was made of.
 std::string JobName(const EstimationJob& job, const Scene& scene);
 
 }  // namespace dpe

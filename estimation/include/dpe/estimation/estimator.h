@@ -12,6 +12,7 @@
 #include "dpe/engine/scene.h"
 #include "dpe/engine/sensitivity.h"
 #include "dpe/engine/trajectory.h"
+#include "dpe/estimation/motion_sensitivity.h"
 #include "dpe/estimation/observations.h"
 #include "dpe/estimation/priors.h"
 #include "dpe/estimation/robust_loss.h"
@@ -142,6 +143,7 @@ std::string TerminationName(Termination termination);  // "converged", ...
 // One estimated block, expanded to the object's elements.
 struct EstimatedBlock {
   int object = -1;
+  int capture = -1;  // whose alone it is, from 0; -1: all captures'
   std::string kind;  // "mass", ...
   char mode = 'G';
   std::string unit;
@@ -163,6 +165,21 @@ struct SmoothnessCandidate {
   std::string message;  // why the held-out cost is infinite
 };
 
+// One motion that was captured: the scene in which it was, and what was seen of it.
+struct CapturedMotion {
+  Scene scene;
+  Observations observations;
+  std::string name;  // in messages, file names say; empty: "capture 1", ...
+};
+
+// What a fit says of one of its captures.
+struct CaptureSummary {
+  Scene scene;  // the capture's, with the estimated values in it
+  int num_frames = 0;
+  double final_rms = 0.0;  // m, of this capture alone
+  MotionSensitivity sensitivity;
+};
+
 struct EstimatorSummary {
   Termination termination = Termination::kNumericalFailure;
   std::string message;             // one sentence: why it stopped
@@ -181,15 +198,19 @@ struct EstimatorSummary {
   double prior_cost = 0.0;   // the part of it that priors have
   double initial_rms = 0.0;  // m
   double final_rms = 0.0;
-  int num_frames = 0;
+  int num_frames = 0;                       // of the longest capture
   std::vector<HorizonStage> horizons;       // empty: all frames at once
   std::vector<SmoothnessPrior> smoothness;  // with the weights that were used
   std::vector<SmoothnessCandidate> smoothness_candidates;  // strongest first
-  Eigen::VectorXd parameters;                              // layout order, SI units
+  Eigen::VectorXd parameters;  // order of the (joint) layout, SI units
   std::vector<EstimatedBlock> blocks;
-  Scene scene;  // the input scene with the estimated values in it
+  Scene scene;  // the (first) input scene with the estimated values in it
+  std::vector<CaptureSummary> captures;  // in the order in which they were given
   // Not ok, with a message, where none was computed.
   Uncertainty uncertainty;
+  // Of the fitted motion that depends the most on its start; left out with
+  // UncertaintyMode::kOff and where the fit was stopped.
+  MotionSensitivity sensitivity;
 
   bool usable() const { return termination == Termination::kConverged; }
 };
@@ -205,9 +226,37 @@ struct EstimatorSummary {
 EstimatorSummary Estimate(const Scene& scene, const Observations& observations,
                           const EstimatorOptions& options);
 
+// Estimates from several captures of the same cloths at once: each is a rollout of its
+// own, in parallel (num_threads), and the cost is the sum of theirs.
+//
+// What the cloths are made of - mass, stiffness, damping, drag - is one set of
+// parameters for all; initial velocities and positions are each capture's own, and so
+// is a wind that is estimated. Captures may differ in everything else that a scene says
+// (initial state, pins, wind, gravity, colliders, time steps) and in the number of
+// frames; num_frames is the most that are fitted of each. A mass that is fixed in one
+// and free in another is what the other says. A known force in any of them fixes the
+// scale of mass and stiffness.
+//
+// @throws SceneError as above, naming the captures, if they are not of the same cloths
+//         (RequireSameCloths), the noise of only some is known, one shows nothing that
+//         a parameter moves, or they give two masses where the mass is kept
+EstimatorSummary Estimate(const std::vector<CapturedMotion>& captures,
+                          const EstimatorOptions& options);
+
+// The parameters that the scenes of a fit's captures, or of its only one, hold.
+struct TrueParameters {
+  Eigen::VectorXd values;  // as EstimatorSummary::parameters
+  // One per block: whether it can represent what the scenes say. Only then is there a
+  // deviation from it.
+  std::vector<char> is_known;
+};
+TrueParameters TrueParametersOf(const std::vector<const Scene*>& truths);
+
 // Mean over the parameters that act on the motion of 100 |p - p_true| / |p_true|; NaN
 // if no block of the layout can represent the truth.
 double ParameterDeviationPercent(const EstimatorSummary& summary, const Scene& truth);
+double ParameterDeviationPercent(const EstimatorSummary& summary,
+                                 const std::vector<const Scene*>& truths);
 
 }  // namespace dpe
 

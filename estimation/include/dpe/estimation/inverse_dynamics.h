@@ -30,6 +30,7 @@
 
 #include "dpe/engine/scene.h"
 #include "dpe/engine/simulator.h"
+#include "dpe/estimation/joint_layout.h"
 #include "dpe/estimation/observations.h"
 
 namespace dpe {
@@ -59,6 +60,24 @@ InverseDynamicsResult SolveInverseDynamics(Simulator* simulator,
                                            const Observations& observations,
                                            int num_frames,
                                            const std::vector<double>& total_mass);
+
+// One of several motions of the same cloths.
+struct InverseDynamicsMotion {
+  Simulator* simulator = nullptr;              // of the segment's scene
+  const Observations* observations = nullptr;  // complete
+  int num_frames = 0;
+  int segment = 0;  // of the joint layout
+};
+
+// The same for the equations of several motions, one below the other: one system for
+// what they share and what each has for itself. Segments of the layout without a motion
+// have no equations; what they alone depend on is undetermined.
+//
+// @param total_mass  of the vertices that are free in any segment
+// @throws SceneError as above
+InverseDynamicsResult SolveInverseDynamics(
+    const std::vector<InverseDynamicsMotion>& motions, const JointLayout& joint,
+    const std::vector<double>& total_mass);
 
 // True if every estimated object of the scene is observed completely.
 bool InverseDynamicsApplies(const Scene& scene, const Observations& observations);

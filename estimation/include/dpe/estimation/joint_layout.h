@@ -14,6 +14,7 @@
 #define DPE_ESTIMATION_JOINT_LAYOUT_H_
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "dpe/engine/parameters.h"
@@ -65,8 +66,10 @@ class JointLayout {
 // Checks that the scenes hold the same cloths: as many objects of the same vertices,
 // springs, triangles, groups and rest lengths (to 1e-6 relative), of which the same is
 // estimated, and the same values of what is not (to 1e-9 relative).
-// @throws SceneError naming scene, object, quantity and both values
-void RequireSameCloths(const std::vector<const Scene*>& scenes);
+// @param names  of the scenes in messages; empty: "scene 0", "scene 1", ...
+// @throws SceneError naming scenes, object, quantity and both values
+void RequireSameCloths(const std::vector<const Scene*>& scenes,
+                       const std::vector<std::string>& names = {});
 
 }  // namespace dpe
 

@@ -75,11 +75,24 @@ void AddNoise(const Scene& scene, double sigma, std::uint64_t seed, Observations
 Eigen::Vector3d MarkerPosition(const Trajectory& trajectory, const Marker& marker,
                                double time, int num_frames);
 
-// sqrt(sum |x - x_hat|^2 / number of observed positions), m, of vertices and of
-// markers, over the first `num_frames` frames of the objects that the trajectory holds;
-// NaN without any. Noise makes no difference to it: every observation counts the same.
+// The squared distances of what was observed from a trajectory, of any number of
+// motions.
+struct PositionErrors {
+  double sum = 0.0;  // m^2
+  long count = 0;    // of observed positions
+
+  double Rms() const;  // m; NaN without any
+};
+
+// Adds those of vertices and of markers of the objects that the trajectory holds, over
+// the frames from `first_frame` to the `num_frames`-th. Noise makes no difference:
+// every observation counts the same.
+void AddPositionErrors(const Trajectory& trajectory, const Observations& observations,
+                       int num_frames, PositionErrors* errors, int first_frame = 0);
+
+// sqrt(sum |x - x_hat|^2 / number of observed positions) of these, m; NaN without any.
 double RmsPositionError(const Trajectory& trajectory, const Observations& observations,
-                        int num_frames);
+                        int num_frames, int first_frame = 0);
 
 }  // namespace dpe
 

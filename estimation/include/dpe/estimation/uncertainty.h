@@ -67,6 +67,10 @@ struct UncertaintyInput {
   long num_residuals = 0;                // m, without priors
   // True: residuals are whitened. False: they are in metres.
   bool noise_is_known = false;
+  // Autocorrelation of residuals from frame to frame, and of how many pairs; 0:
+  // unknown.
+  double residual_correlation = 0.0;
+  long num_residual_pairs = 0;
 };
 
 struct UncertaintyOptions {
@@ -156,6 +160,9 @@ struct Uncertainty {
   // |r|^2 / degrees_of_freedom of whitened residuals, about 1 if model and noise are
   // right; NaN if the noise is not known.
   double reduced_chi_square = 0.0;
+  // Of successive frames, if it is more than chance; else 0. With it the standard
+  // deviations, which take residuals for independent, are too small.
+  double residual_correlation = 0.0;
   int rank = 0;                    // of the data Jacobian
   int num_weak_directions = 0;     // of the data
   std::vector<std::string> names;  // of all parameters
@@ -176,7 +183,10 @@ struct Uncertainty {
 Uncertainty ComputeUncertainty(const UncertaintyInput& input,
                                const UncertaintyOptions& options = {});
 
-// What a program prints: one line per block, then the statements.
+// "all 5 parameters were determined", or how many were and which were not.
+std::string DeterminedText(const Uncertainty& uncertainty);
+
+// What a program prints: one line per block, DeterminedText, then the statements.
 std::vector<std::string> UncertaintyLines(const Uncertainty& uncertainty);
 
 }  // namespace dpe
