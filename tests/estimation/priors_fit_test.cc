@@ -153,6 +153,20 @@ TEST_F(PriorsFitTest, WindAndInitialVelocityTakePriors) {
   EXPECT_EQ(summary.uncertainty.blocks.back().flags[0] & kPriorAlone, 0u);
 }
 
+// A prior is one, however many captures there are, but each has its own wind.
+TEST_F(PriorsFitTest, SeveralCapturesShareOnePrior) {
+  options_.priors = PriorsFromText("damping:lognormal:0.3,0.01");
+  const std::vector<CapturedMotion> twice(2, {scene_, target_, ""});
+  const EstimatorSummary summary = Estimate(twice, options_);
+  ASSERT_TRUE(summary.usable()) << summary.message;
+  const double r = std::log(summary.parameters[3] / 0.3) / 0.01;
+  EXPECT_NEAR(summary.prior_cost, 0.5 * r * r, 1e-9 * summary.prior_cost);
+  // The same data twice weigh twice as much against it.
+  const EstimatorSummary once = FitWith("damping:lognormal:0.3,0.01");
+  const double r_once = std::log(once.parameters[3] / 0.3) / 0.01;
+  EXPECT_GT(std::abs(r), 1.5 * std::abs(r_once));
+}
+
 TEST_F(PriorsFitTest, WithoutNoiseAPriorIsRefused) {
   target_.sigma = 0.0;
   options_.priors = PriorsFromText("damping:lognormal:0.3,1");

@@ -9,6 +9,7 @@
 #include "dpe/engine/cloth_builder.h"
 #include "dpe/estimation/checkpoint.h"
 #include "dpe/estimation/estimator.h"
+#include "dpe/estimation/joint_layout.h"
 #include "estimation/fit_support.h"
 #include "support/temp_dir.h"
 
@@ -118,6 +119,41 @@ TEST_F(SmoothnessFitTest, ErrorBarsKnowTheNeighbours) {
   EXPECT_GT(std::sqrt(scaled.square().mean()), 0.3);
   EXPECT_LT(block.relative.maxCoeff(),
             0.1 * alone.uncertainty.blocks[0].relative.maxCoeff());
+}
+
+// Two captures of one cloth, pinned differently: each holds out its own last frames.
+TEST_F(SmoothnessFitTest, SeveralCapturesHoldOutTheirLastFrames) {
+  CapturedMotion side = {scene_, target_, "side"};
+  CapturedMotion corners = side;
+  corners.name = "corners";
+  UnpinAll(&corners.scene.objects[0]);
+  PinVertices({0, 6, 42, 48}, &corners.scene.objects[0]);
+  corners.observations = test::OwnMotion(corners.scene, 20);
+  AddNoise(corners.scene, kSigma, 12, &corners.observations);
+  corners.observations.sigma = kSigma;
+  options_.smoothness = SmoothnessFromText("stiffness=auto");
+  const EstimatorSummary both = Estimate({side, corners}, options_);
+  ASSERT_TRUE(both.usable()) << both.message;
+  EXPECT_TRUE(test::HasNote(both, "last 8 frames best from the first 32"));
+  ASSERT_EQ(both.captures.size(), 2u);
+  EXPECT_EQ(both.captures[1].num_frames, 20);
+  ASSERT_GE(both.smoothness_candidates.size(), 4u);
+  // More is known than from one of them, of more springs.
+  const Eigen::VectorXd truth = JointLayout({&side.scene, &corners.scene}, true)
+                                    .Extract({&side.scene, &corners.scene});
+  ASSERT_EQ(both.parameters.size(), truth.size());
+  const double error =
+      std::sqrt((both.parameters.array() / truth.array()).log().square().mean());
+  EXPECT_LT(error, Error(FitWith("stiffness=10")));
+  options_.smoothness = SmoothnessFromText("stiffness=auto");
+  corners.observations = test::OwnMotion(corners.scene, 4);
+  corners.observations.sigma = kSigma;
+  try {
+    Estimate({side, corners}, options_);
+    ADD_FAILURE() << "accepted";
+  } catch (const SceneError& refused) {
+    EXPECT_THAT(refused.what(), HasSubstr("corners: smoothness with a weight"));
+  }
 }
 
 TEST_F(SmoothnessFitTest, TimeAndInterruptionsEndTheChoice) {
