@@ -99,7 +99,8 @@ DEFINE_string(
     horizon, "auto",
     "full: fit all frames at once; grow: fit the first few, then more and "
     "more, each from the one before; auto: grow for more than 3 parameters and "
-    "lm, unless inverse dynamics gave the start; else full.");
+    "lm, unless inverse dynamics gave the start; else full. shooting: fit windows of "
+    "10 frames with states of their own, which are made to join.");
 DEFINE_double(sigma, 0.0,
               "Standard deviation (m) of the noise on each observed coordinate, for "
               "observations that name none of their own; 0: --noise_sigma.");
@@ -201,7 +202,8 @@ Horizon HorizonFromFlag() {
   if (FLAGS_horizon == "auto") return Horizon::kAuto;
   if (FLAGS_horizon == "full") return Horizon::kFull;
   if (FLAGS_horizon == "grow") return Horizon::kGrow;
-  Refuse("horizon", FLAGS_horizon, "auto, full or grow");
+  if (FLAGS_horizon == "shooting") return Horizon::kShooting;
+  Refuse("horizon", FLAGS_horizon, "auto, full, grow or shooting");
 }
 
 UncertaintyMode UncertaintyFromFlag() {

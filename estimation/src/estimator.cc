@@ -16,6 +16,7 @@
 #include "horizon.h"
 #include "optimizers.h"
 #include "prior_rows.h"
+#include "shooting_start.h"
 #include "starting_point.h"
 #include "stop_control.h"
 #include "summary_blocks.h"
@@ -36,6 +37,11 @@ class Fit {
               resumed() != nullptr ? resumed()->seconds : 0.0),
         fit_(PrepareCaptures(captures, options.num_frames), options_, &stop_) {
     RequireOneMass(captures);
+    if (options.horizon == Horizon::kShooting && captures.size() > 1) {
+      throw SceneError("horizon shooting is for one capture, and there are " +
+                       std::to_string(captures.size()) +
+                       "; accepted with several are auto, full and grow");
+    }
     context_.fit = &fit_;
     context_.options = &options_;
     context_.stop = &stop_;
@@ -114,7 +120,7 @@ class Fit {
       return;
     }
     GoTo(checkpoint.start);
-    if (ShouldGrow()) Grow(checkpoint.stage == "grow" ? &checkpoint : nullptr);
+    Approach(checkpoint.stage == "grow" ? &checkpoint : nullptr);
     ReplaceFailedStart();
   }
 
@@ -123,7 +129,7 @@ class Fit {
         {&captures_, &fit_.captures(), &options_, &stop_, evaluator()});
     TryStart();
     if (start_.coordinates.size() > 0) SaveCheckpoint("start", context_, 0.0);
-    if (ShouldGrow()) Grow(nullptr);
+    Approach(nullptr);
     ReplaceFailedStart();
   }
 
@@ -171,6 +177,25 @@ class Fit {
            (start_.init != "inverse_dynamics" || !AllAreComplete(fit_.captures()));
   }
 
+  // Comes nearer to the answer by other ways than a fit to all frames.
+  // @param resumed  where to continue; null: at the start
+  void Approach(const Checkpoint* resumed) {
+    if (options_.horizon == Horizon::kShooting) {
+      Shoot();
+    } else if (ShouldGrow()) {
+      Grow(resumed);
+    }
+  }
+
+  void Shoot() {
+    if (start_.coordinates.size() == 0 || fit_.IsAtRounding()) return;
+    const ShootingStart shot =
+        ShootForStart(fit_.captures()[0], start_.coordinates, &context_);
+    summary_.notes.insert(summary_.notes.end(), shot.notes.begin(), shot.notes.end());
+    context_.first_iteration = context_.num_iterations;
+    if (shot.ok) TakeBetter(shot.coordinates);
+  }
+
   // @param resumed  where to continue; null: at the start
   void Grow(const Checkpoint* resumed) {
     if (start_.coordinates.size() == 0 || fit_.IsAtRounding()) return;
@@ -180,15 +205,19 @@ class Fit {
     summary_.evaluations += grown.num_rollouts;
     summary_.jacobian_evaluations += grown.num_derivative_passes;
     context_.first_iteration = context_.num_iterations;
-    if (!grown.ok) return;
-    const bool is_grown_ok = evaluator()->Evaluate(grown.coordinates);
+    if (grown.ok) TakeBetter(grown.coordinates);
+  }
+
+  // Goes on from the better of the start, if it can be simulated, and what has been
+  // made of it.
+  void TakeBetter(const Eigen::VectorXd& coordinates) {
+    const bool is_ok = evaluator()->Evaluate(coordinates);
     if (!start_.ok) {
-      start_.ok = is_grown_ok;
+      start_.ok = is_ok;
       start_.message = evaluator()->message();
-      if (is_grown_ok) RecordStart();
+      if (is_ok) RecordStart();
     }
     if (!start_.ok) return;
-    // What grew from a start that can be simulated has to be better than it.
     const Eigen::VectorXd best = evaluator()->best_coordinates();
     problem()->set_coordinates(best);
     evaluator()->Evaluate(best);

@@ -108,6 +108,8 @@ std::string HorizonName(Horizon horizon) {
       return "auto";
     case Horizon::kFull:
       return "full";
+    case Horizon::kShooting:
+      return "shooting";
     case Horizon::kGrow:
       return "grow";
   }

@@ -12,16 +12,13 @@ FitProblem::FitProblem(std::vector<FitCapture> captures,
       num_frames_(MostFrames(captures_)),
       best_rms_(std::numeric_limits<double>::quiet_NaN()),
       best_rms_of_(captures_.size(), best_rms_) {
-  PositionCostOptions cost_options;
-  cost_options.loss = options.loss;
-  cost_options.loss_scale = options.loss_scale;
   std::vector<TrajectorySegment> segments;
   bool is_anything_observed = false;
   for (const FitCapture& capture : captures_) {
     TrajectorySegment segment;
     segment.scene = capture.blank;
     segment.costs = MakePositionCosts(capture.blank, capture.observations,
-                                      capture.num_frames, cost_options);
+                                      capture.num_frames, CostOptionsOf(options));
     is_anything_observed |= !segment.costs.empty();
     segments.push_back(std::move(segment));
     noise_is_known_ |= NoiseIsKnown(capture.blank, capture.observations);
@@ -36,15 +33,10 @@ FitProblem::FitProblem(std::vector<FitCapture> captures,
         "priors and smoothness are weighed against the noise of the target, which is "
         "not known: give its standard deviation (--sigma, or sigma in the target)");
   }
-  TrajectoryEvaluatorOptions evaluator_options;
-  evaluator_options.jacobian = options.jacobian;
-  evaluator_options.num_threads = options.num_threads;
-  evaluator_options.memory_limit_bytes = options.memory_limit_bytes;
-  evaluator_options.timings = options.timings;
+  TrajectoryEvaluatorOptions evaluator_options = EvaluatorOptionsOf(options, stop);
   evaluator_options.priors = options.priors;
   evaluator_options.smoothness = options.smoothness;
   evaluator_options.own_wind = true;
-  evaluator_options.interrupted = [stop] { return stop->Poll(); };
   evaluator_options.improved = [this] { MeasureErrors(); };
   problem_ = std::make_unique<TrajectoryProblem>(
       std::move(segments), std::vector<SegmentLink>(), evaluator_options);
@@ -66,6 +58,24 @@ void FitProblem::MeasureErrors() {
 
 bool FitProblem::IsAtRounding() const {
   return problem_->evaluator()->best_cost() <= converged_cost_;
+}
+
+PositionCostOptions CostOptionsOf(const EstimatorOptions& options) {
+  PositionCostOptions cost_options;
+  cost_options.loss = options.loss;
+  cost_options.loss_scale = options.loss_scale;
+  return cost_options;
+}
+
+TrajectoryEvaluatorOptions EvaluatorOptionsOf(const EstimatorOptions& options,
+                                              StopControl* stop) {
+  TrajectoryEvaluatorOptions evaluator_options;
+  evaluator_options.jacobian = options.jacobian;
+  evaluator_options.num_threads = options.num_threads;
+  evaluator_options.memory_limit_bytes = options.memory_limit_bytes;
+  evaluator_options.timings = options.timings;
+  evaluator_options.interrupted = [stop] { return stop->Poll(); };
+  return evaluator_options;
 }
 
 double JacobianBytes(const TrajectoryEvaluator& evaluator) {

@@ -53,6 +53,12 @@ class FitProblem {
   std::unique_ptr<TrajectoryProblem> problem_;
 };
 
+// What residuals of a fit, and their evaluator, take from its options.
+// @param stop  polled within rollouts; must outlive the evaluator
+PositionCostOptions CostOptionsOf(const EstimatorOptions& options);
+TrajectoryEvaluatorOptions EvaluatorOptionsOf(const EstimatorOptions& options,
+                                              StopControl* stop);
+
 // What the Jacobian takes in memory as one dense matrix.
 double JacobianBytes(const TrajectoryEvaluator& evaluator);
 

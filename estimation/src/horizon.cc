@@ -56,6 +56,7 @@ class HorizonGrower {
       }
     }
     context_->horizons = stage_context_.horizons;
+    context_->initial_radius = stage_context_.last_radius;
     return result_;
   }
 
@@ -113,6 +114,8 @@ class HorizonGrower {
     stage_context_.num_iterations = context_->num_iterations;
     stage_context_.first_iteration = context_->num_iterations;
     Minimize(ChooseSolver(*fit->evaluator(), options_).is_lm, &stage_context_);
+    // What was learnt of how far steps can be trusted holds for longer horizons too.
+    stage_context_.initial_radius = stage_context_.last_radius;
     context_->num_iterations = stage_context_.num_iterations;
   }
 

@@ -15,6 +15,9 @@ ceres::Solver::Options LevenbergMarquardtOptions() {
   // The damping is relative to the squared column lengths of J. Ceres raises those to
   // 1e-6 before, which would drown columns of short lengths (m per unit of ln p).
   options.min_lm_diagonal = 1e-24;
+  // Damping that is the same for all unknowns may have to become very small for the
+  // last digits of those that hardly move the motion.
+  options.max_trust_region_radius = 1e30;
   options.logging_type = ceres::SILENT;
   return options;
 }

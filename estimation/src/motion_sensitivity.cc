@@ -124,7 +124,7 @@ class Growth {
                                 ? seconds / std::log2(result_.growth)
                                 : std::numeric_limits<double>::infinity();
     std::ostringstream text;
-    text.precision(2);
+    text.precision(3);
     text << "a small disturbance of the cloth's state at frame 0 ";
     if (result_.growth <= kFaded) {
       text << "has faded to " << result_.growth << " of itself " << seconds

@@ -58,6 +58,9 @@ class StopCallback : public ceres::IterationCallback {
   explicit StopCallback(const MultipleShootingOptions& options) : options_(options) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& s) override {
+    if (s.iteration > 0 && options_.progress) {
+      options_.progress(s.cost, s.step_norm, s.step_is_successful);
+    }
     const bool stop = s.cost <= options_.converged_cost || IsInterrupted(options_);
     return stop ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }

@@ -43,8 +43,9 @@ class ProgressCallback : public ceres::IterationCallback {
       report.gradient_max_norm = s.gradient_max_norm;
       report.step_accepted = s.step_is_successful;
       context_->Report(report);
-      if (s.iteration > 0 && s.step_is_successful && context_->accepted) {
-        context_->accepted(*context_, s.trust_region_radius / damping_);
+      if (s.iteration > 0 && s.step_is_successful) {
+        context_->last_radius = s.trust_region_radius / damping_;
+        if (context_->accepted) context_->accepted(*context_, context_->last_radius);
       }
     }
     if (context_->stop->Poll() || context_->fit->IsAtRounding()) {
@@ -125,7 +126,8 @@ OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
   solver.max_num_iterations = MaxIterations(*context, kDefaultLmIterations);
   const double damping = SetUniformDamping(context->problem(), &solver);
   if (context->initial_radius > 0.0) {
-    solver.initial_trust_region_radius = context->initial_radius * damping;
+    solver.initial_trust_region_radius =
+        std::min(context->initial_radius * damping, solver.max_trust_region_radius);
     context->initial_radius = 0.0;
   }
   solver.function_tolerance = options.function_tolerance;

@@ -34,6 +34,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 
 #include "dpe/engine/timings.h"
 
@@ -50,13 +51,15 @@ namespace dpe {
 // @param num_threads  to factorise with; the result does not depend on it
 // @param timings      if not null, receives the time of the reduction
 // @param interrupted  polled between pieces of the reduction, if set, from any thread
-// but
-//                     from one at a time; true makes the evaluation fail
+//                     but from one at a time; true makes the evaluation fail
+// @param relative     parameter blocks of logarithms whose steps are to be relative
+//                     changes (relative_step_manifold.h), unless they have a manifold
 // @return             null if there is nothing to gain: no more residuals than
 //                     parameters
 std::unique_ptr<ceres::Problem> NewReducedProblem(
     ceres::Problem* full, ceres::EvaluationCallback* callback, int num_threads,
-    Timings* timings, std::function<bool()> interrupted = nullptr);
+    Timings* timings, std::function<bool()> interrupted = nullptr,
+    const std::set<const double*>& relative = {});
 
 }  // namespace dpe
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -212,8 +213,17 @@ bool TrajectoryProblem::StepIsTooLong() const {
 
 std::unique_ptr<ceres::Problem> TrajectoryProblem::NewReducedLeastSquares() {
   const TrajectoryEvaluatorOptions& options = evaluator_.options();
+  // A handful of values is found in whatever coordinates; hundreds that make up for
+  // each other are not (relative_step_manifold.h).
+  std::set<const double*> relative;
+  for (int b = 0; b < static_cast<int>(layout().blocks().size()); ++b) {
+    const ParameterBlock& block = layout().blocks()[b];
+    if (block.mode == ParameterMode::kLocal && ParameterKindIsPositive(block.kind)) {
+      relative.insert(block_coordinates(b));
+    }
+  }
   return NewReducedProblem(&least_squares_, this, options.num_threads, options.timings,
-                           options.interrupted);
+                           options.interrupted, relative);
 }
 
 ceres::FirstOrderFunction* TrajectoryProblem::NewFirstOrderFunction() {

@@ -250,11 +250,13 @@ std::string DeterminedText(const Uncertainty& uncertainty) {
       ++count;
     }
   }
-  const std::string all = std::to_string(count) +
-                          (count == 1 ? " parameter was" : " parameters were") +
-                          " determined";
-  if (others.empty()) return (count == 1 ? "the " : "all ") + all;
-  std::string text = std::to_string(count - others.size()) + " of " + all;
+  const std::string were_determined =
+      count == 1 ? " parameter was determined" : " parameters were determined";
+  if (others.empty()) {
+    return (count == 1 ? "the" : "all " + std::to_string(count)) + were_determined;
+  }
+  std::string text = std::to_string(count - others.size()) + " of " +
+                     std::to_string(count) + were_determined;
   if (others.size() > kNamed + 1) {
     const std::string rest = std::to_string(others.size() - kNamed) + " more";
     others.resize(kNamed);

@@ -48,6 +48,43 @@ TEST(HorizonTest, GrowingFindsWhatAllFramesAtOnceDoNot) {
   EXPECT_FALSE(full.final_rms < 1e3 * grown.final_rms);  // also if there is none
 }
 
+// Few frames hold all that is to be known of springs that hardly move the motion in so
+// short a time. With steps that are changes of logarithms this takes more than 200
+// iterations.
+TEST(HorizonTest, StiffnessesThatMakeUpForEachOtherAreFoundInFewIterations) {
+  Scene scene = test::MakeDerivativeScene("flag", 7);
+  ApplySettings("nL", &scene);
+  const EstimatorSummary summary =
+      Estimate(scene, test::OwnMotion(scene, 20), FromUniformStart(Horizon::kAuto));
+  EXPECT_EQ(summary.termination, Termination::kConverged) << summary.message;
+  EXPECT_LT(summary.final_rms, 1e-11);
+  EXPECT_LT(ParameterDeviationPercent(summary, scene), 1e-3);
+  EXPECT_LT(summary.iterations, 60);
+}
+
+// Where the first frames were not seen, windows in the middle of the motion are fitted.
+TEST(HorizonTest, ShootingStartsFromWindows) {
+  Scene scene = test::MakeDerivativeScene("side", 4);
+  ApplySettings("nR", &scene);
+  const ParameterLayout layout(scene);
+  layout.Insert(layout.Extract(scene), &scene);
+  const Observations target = test::OwnMotion(scene, 40);
+  EstimatorOptions options = FromUniformStart(Horizon::kShooting);
+  int num_reports = 0;
+  options.progress = [&](const IterationReport&) { ++num_reports; };
+  const EstimatorSummary summary = Estimate(scene, target, options);
+  EXPECT_EQ(summary.termination, Termination::kConverged) << summary.message;
+  EXPECT_LT(summary.final_rms, 1e-10);
+  EXPECT_GT(num_reports, 1);
+  bool is_told = false;
+  for (const std::string& note : summary.notes) {
+    is_told |= note.find("windows of 10 frames") != std::string::npos;
+  }
+  EXPECT_TRUE(is_told);
+  const std::vector<CapturedMotion> two = {{scene, target, "a"}, {scene, target, "b"}};
+  EXPECT_THROW(Estimate(two, options), SceneError);
+}
+
 // A capture that begins in the middle of the motion.
 TEST(HorizonTest, GrowsFromTheFirstFrameThatWasSeen) {
   const Scene scene = FlagWithLocalStiffness();

@@ -34,6 +34,21 @@ Scene OneVertex(double stiffness, double rest_length) {
   return scene;
 }
 
+// The same between two springs of the given rest length, fixed 1 m above and below.
+Scene BetweenTwoSprings(double rest_length) {
+  Scene scene = OneVertex(100.0, rest_length);
+  ClothObject& cloth = scene.objects[0];
+  cloth.positions.conservativeResize(9);
+  cloth.positions.tail<3>() << 0, 2, 0;
+  cloth.velocities.setZero(9);
+  cloth.is_fixed = {1, 0, 1};
+  cloth.mass.setConstant(3, 1.0);
+  cloth.springs = {{0, 1}, {1, 2}};
+  cloth.stiffness.setConstant(2, 100.0);
+  cloth.rest_length.setConstant(2, rest_length);
+  return scene;
+}
+
 // Compressed by c, a spring pushes sideways with k c / l per unit of displacement: e^(s
 // t) with s^2 = k c / (m l).
 TEST(MotionSensitivityTest, AnUnstableEquilibriumGrowsExponentially) {
@@ -42,17 +57,7 @@ TEST(MotionSensitivityTest, AnUnstableEquilibriumGrowsExponentially) {
   const MotionSensitivity free = ComputeMotionSensitivity(scene, 101);
   ASSERT_TRUE(free.ok) << free.message;
   EXPECT_NEAR(free.growth, std::hypot(1.0, 100.0), 1e-6);
-  // Held by stiff springs along y from both sides, pressed together: no motion in y.
-  Scene pressed = OneVertex(100.0, 1.25);
-  ClothObject& cloth = pressed.objects[0];
-  cloth.positions.conservativeResize(9);
-  cloth.positions.tail<3>() << 0, 2, 0;
-  cloth.velocities.setZero(9);
-  cloth.is_fixed = {1, 0, 1};
-  cloth.mass.setConstant(3, 1.0);
-  cloth.springs = {{0, 1}, {1, 2}};
-  cloth.stiffness.setConstant(2, 100.0);
-  cloth.rest_length.setConstant(2, 1.25);
+  const Scene pressed = BetweenTwoSprings(1.25);
   const double rate = std::sqrt(2.0 * 100.0 * 0.25);
   const MotionSensitivity falling = ComputeMotionSensitivity(pressed, 101);
   ASSERT_TRUE(falling.ok) << falling.message;
@@ -65,11 +70,9 @@ TEST(MotionSensitivityTest, AnUnstableEquilibriumGrowsExponentially) {
 }
 
 TEST(MotionSensitivityTest, DampedMotionForgets) {
-  Scene scene = OneVertex(50.0, 1.0);
-  scene.objects[0].damping = 20.0;
-  // Also sideways, where a spring at its rest length does not hold.
-  scene.objects[0].rest_length[0] = 0.5;
-  const MotionSensitivity result = ComputeMotionSensitivity(scene, 400);
+  Scene scene = BetweenTwoSprings(0.75);  // stretched: held in all directions
+  scene.objects[0].damping = 4.0;
+  const MotionSensitivity result = ComputeMotionSensitivity(scene, 1001);
   ASSERT_TRUE(result.ok) << result.message;
   EXPECT_LT(result.growth, 0.1);
   EXPECT_TRUE(std::isinf(result.doubling_time));

@@ -14,6 +14,7 @@
 #include "dpe/engine/simulator.h"
 #include "dpe/estimation/trajectory_problem.h"
 #include "fit_support.h"
+#include "relative_step_manifold.h"
 #include "support/derivative_checker.h"
 #include "support/test_scenes.h"
 
@@ -149,6 +150,25 @@ TEST_F(ReducedProblemTest, WithManifolds) {
   ExpectReducedIsSame({x_.data(), y_.data(), z_.data()});
 }
 
+// A block with relative steps becomes several, over the same memory.
+TEST_F(ReducedProblemTest, WithABlockInPieces) {
+  std::vector<double> w(70);
+  for (size_t i = 0; i < w.size(); ++i) w[i] = 0.01 * static_cast<double>(i);
+  Add(90, nullptr, &w, 6);
+  full_.SetParameterUpperBound(w.data(), 65, 0.9);
+  const auto reduced =
+      NewReducedProblem(&full_, nullptr, 1, nullptr, nullptr, {w.data(), y_.data()});
+  ASSERT_NE(reduced, nullptr);
+  ASSERT_EQ(reduced->NumParameterBlocks(), 4);
+  EXPECT_EQ(reduced->GetManifold(x_.data()), nullptr);
+  EXPECT_NE(reduced->GetManifold(w.data() + 32), nullptr);
+  EXPECT_EQ(reduced->ParameterBlockSize(w.data() + 64), 6);
+  EXPECT_EQ(reduced->GetParameterUpperBound(w.data() + 64, 1), 0.9);
+  ExpectSame(
+      Evaluate(&full_, {x_.data(), w.data()}),
+      Evaluate(reduced.get(), {x_.data(), w.data(), w.data() + 32, w.data() + 64}));
+}
+
 TEST_F(ReducedProblemTest, FollowsThePointAndKeepsBounds) {
   AddAll();
   full_.SetParameterLowerBound(y_.data(), 1, 0.65);
@@ -274,6 +294,11 @@ TEST(ReducedTrajectoryProblemTest, LevenbergMarquardtTakesTheSameSteps) {
   const auto other = NewTrajectoryProblem("nL");
   const auto reduced = other->NewReducedLeastSquares();
   ASSERT_NE(reduced, nullptr);
+  // The reduced problem has the relative steps of local blocks; the full one is asked.
+  const int size = full->layout().blocks()[0].size;
+  ASSERT_GT(size, 32);  // in pieces
+  full->least_squares()->SetManifold(full->block_coordinates(0),
+                                     new RelativeStepManifold(size));
   const std::vector<double> expected = CostsOfIterations(full->least_squares());
   const std::vector<double> costs = CostsOfIterations(reduced.get());
   ASSERT_EQ(costs.size(), expected.size());

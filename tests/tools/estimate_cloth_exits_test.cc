@@ -33,6 +33,8 @@ TEST_F(EstimateClothExitsTest, BadFlagsNameFlagValueAndWhatIsAccepted) {
   EXPECT_THAT(Refused({"--init=uniform:"}), HasSubstr("--init"));
   EXPECT_THAT(Refused({"--init=uniform:-1"}), HasSubstr("above 0"));
   EXPECT_THAT(Refused({"--init=uniform:1x"}), HasSubstr("1x"));
+  EXPECT_THAT(Refused({"--horizon=half"}),
+              AllOf(HasSubstr("half"), HasSubstr("shooting")));
   EXPECT_THAT(Refused({"--settings=nX"}), HasSubstr("X"));
   EXPECT_THAT(Refused({"--settings=nn"}), HasSubstr("nothing is estimated"));
   EXPECT_THAT(Refused({"--settings=nL,nL"}), HasSubstr("nL,nL"));

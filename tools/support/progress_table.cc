@@ -81,9 +81,7 @@ void PrintSmoothness(const EstimatorSummary& summary) {
 }
 
 void PrintUncertainty(const Uncertainty& uncertainty) {
-  if (!uncertainty.ok) {
-    std::cout << "Error bars: none, " << uncertainty.message << "\n";
-  }
+  if (!uncertainty.ok) std::cout << "Error bars: none, ";
   for (const std::string& line : UncertaintyLines(uncertainty)) {
     std::cout << line << "\n";
   }

@@ -37,6 +37,9 @@ enum class Horizon {
   kAuto,  // grow with LM, unless inverse dynamics gave the start, else full
   kFull,  // all at once
   kGrow,  // the first few frames, then more and more, each from the one before
+  // Short windows with unknown states that are made to join (multiple_shooting.h), then
+  // all at once; of one capture only. A state is 6 unknowns per vertex and window.
+  kShooting,
 };
 
 enum class UncertaintyMode {

@@ -70,6 +70,10 @@ struct MultipleShootingOptions {
                                 int num_frames)>
       make_costs;
 
+  // If set, called after every iteration with the cost, the length of the step, and
+  // whether it was accepted.
+  std::function<void(double cost, double step_norm, bool accepted)> progress;
+
   // If set, called with every problem that is made: to add residuals on its parameters,
   // say a prior on blocks that belong to no segment.
   std::function<void(TrajectoryProblem* problem)> add_residuals;
