@@ -76,6 +76,9 @@ DEFINE_string(rest_shape, "",
 DEFINE_string(estimate, "",
               "More to estimate than --settings: damping, drag, wind, "
               "initial_velocity, separated by commas.");
+DEFINE_bool(estimate_initial_velocity, false,
+            "The same as --estimate initial_velocity: how fast every vertex moves at the "
+            "start.");
 DEFINE_string(
     uncertainty, "auto",
     "Error bars: on, off, or auto: if the noise is known or there are at most "
@@ -298,6 +301,7 @@ EstimationJob JobFromFlags() {
   job.target_paths = RepeatedPaths("target");
   job.target = TargetFromFlags();
   job.estimate = Split(FLAGS_estimate, ',');
+  if (FLAGS_estimate_initial_velocity) job.estimate.push_back("initial_velocity");
   job.trajectory_format =
       FromFlag("trajectory_format", FLAGS_trajectory_format, TrajectoryFormatFromName);
   job.options.uncertainty = UncertaintyFromFlag();
