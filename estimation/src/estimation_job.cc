@@ -75,27 +75,31 @@ void EstimateMore(const std::string& what, Scene* scene) {
   }
 }
 
-// @param path  of the scene; empty: it is made of `target`
+// @param path          of the scene; empty: it is made of `target`
+// @param input         receives warnings, and the objects whose settings are to be
+// chosen
 Scene LoadJobScene(const EstimationJob& job, const std::string& path,
-                   const std::string& target, std::vector<std::string>* warnings) {
+                   const std::string& target, EstimationInput* input) {
   Scene scene = path.empty()
                     ? SceneFromTarget(target, job.target, job.scene_from_target)
-                    : LoadScene(path, warnings);
-  if (!job.settings.empty()) ApplySettings(job.settings, &scene);
+                    : LoadScene(path, &input->warnings);
+  if (!job.settings.empty()) {
+    input->auto_objects = ApplyAutoSettings(job.settings, &scene);
+  }
   for (const std::string& what : job.estimate) EstimateMore(what, &scene);
   if (ParameterLayout(scene).size() == 0) {
     throw SceneError(
         (path.empty() ? target : path) + ": nothing is estimated (settings \"" +
         SettingsString(scene) +
         "\"); accepted in --settings are two letters per object, mass then "
-        "stiffness, each n, G, L or R and not all n");
+        "stiffness, each n, G, L or R and not all n, or auto");
   }
   return scene;
 }
 
 // Captures with their scenes and the names of their targets.
 std::vector<CaptureInput> PairScenesWithTargets(const EstimationJob& job,
-                                                std::vector<std::string>* warnings) {
+                                                EstimationInput* input) {
   const size_t num_scenes = job.scene_paths.size();
   const size_t num_targets = job.target_paths.size();
   const bool is_one_for_all = num_scenes == 1 && num_targets > 1;
@@ -116,7 +120,7 @@ std::vector<CaptureInput> PairScenesWithTargets(const EstimationJob& job,
     const bool is_known = is_one_for_all && c > 0;
     capture.scene =
         is_known ? captures[0].scene
-                 : LoadJobScene(job, capture.scene_path, capture.target_path, warnings);
+                 : LoadJobScene(job, capture.scene_path, capture.target_path, input);
     captures.push_back(std::move(capture));
   }
   return captures;
@@ -204,7 +208,7 @@ std::vector<const Scene*> EstimationInput::scenes() const {
 
 EstimationInput LoadEstimationInput(const EstimationJob& job) {
   EstimationInput input;
-  input.captures = PairScenesWithTargets(job, &input.warnings);
+  input.captures = PairScenesWithTargets(job, &input);
   input.truth_is_known = job.target_paths.empty();
   for (CaptureInput& capture : input.captures) {
     if (input.truth_is_known) {
@@ -221,14 +225,24 @@ EstimationInput LoadEstimationInput(const EstimationJob& job) {
   return input;
 }
 
-EstimatorSummary RunEstimation(const EstimationInput& input,
-                               const EstimatorOptions& options) {
+EstimatorSummary RunEstimation(const EstimatorOptions& options,
+                               const std::function<void(const ModelFit&)>& started,
+                               EstimationInput* input, ModelSelection* selection) {
   std::vector<CapturedMotion> captures;
-  for (const CaptureInput& capture : input.captures) {
+  for (const CaptureInput& capture : input->captures) {
     captures.push_back(
         {capture.scene, capture.target, CaptureName(capture, captures.size())});
   }
-  return Estimate(captures, options);
+  if (input->auto_objects.empty()) return Estimate(captures, options);
+  ModelSelectionOptions selection_options;
+  selection_options.objects = input->auto_objects;
+  selection_options.started = started;
+  SelectedModel model = SelectModel(captures, options, selection_options);
+  for (CaptureInput& capture : input->captures) {
+    ApplySettings(model.selection.chosen, &capture.scene);
+  }
+  *selection = std::move(model.selection);
+  return std::move(model.summary);
 }
 
 std::vector<Validation> Validate(const EstimatorSummary& summary,

@@ -30,17 +30,26 @@ std::string TrajectoryPath(const EstimationJob& job, const std::string& output_d
 
 }  // namespace
 
-std::string JobName(const EstimationJob& job, const EstimationInput& input) {
+namespace {
+
+std::string NameWith(const EstimationJob& job, const std::string& settings) {
   const std::vector<std::string>& paths =
       job.scene_paths.empty() ? job.target_paths : job.scene_paths;
   std::string name = std::filesystem::path(paths[0]).stem().string();
   if (paths.size() > 1) name += "_and_" + std::to_string(paths.size() - 1) + "_more";
-  return name + "_" + SettingsString(input.captures[0].scene);
+  return name + "_" + settings;
+}
+
+}  // namespace
+
+std::string JobName(const EstimationJob& job, const EstimationInput& input) {
+  return NameWith(job, SettingsString(input.captures[0].scene));
 }
 
 std::string PrepareOutputDir(const EstimationJob& job, const EstimationInput& input) {
-  const std::string dir =
-      job.output_dir.empty() ? "results/" + JobName(job, input) : job.output_dir;
+  const std::string name =
+      input.auto_objects.empty() ? JobName(job, input) : NameWith(job, job.settings);
+  const std::string dir = job.output_dir.empty() ? "results/" + name : job.output_dir;
   std::error_code error;
   std::filesystem::create_directories(dir, error);
   if (error || !std::filesystem::is_directory(dir, error)) {
@@ -54,7 +63,8 @@ std::vector<std::string> WriteResults(const EstimationJob& job,
                                       const EstimationInput& input,
                                       const EstimatorSummary& summary,
                                       const std::vector<Validation>& validations,
-                                      const std::string& output_dir) {
+                                      const std::string& output_dir,
+                                      const ModelSelection* selection) {
   std::vector<std::string> files;
   const bool has_result = std::isfinite(summary.final_cost);
   const bool are_several = validations.size() > 1;
@@ -71,7 +81,8 @@ std::vector<std::string> WriteResults(const EstimationJob& job,
     files.insert(files.end(), frames.begin(), frames.end());
   }
   files.push_back(output_dir + "/report.json");
-  WriteFileAtomically(files.back(), ReportToJson(job, input, summary, validations));
+  WriteFileAtomically(files.back(),
+                      ReportToJson(job, input, summary, validations, selection));
   return files;
 }
 

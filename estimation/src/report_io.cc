@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "json_numbers_io.h"
+#include "model_selection_io.h"
 #include "uncertainty_io.h"
 
 namespace dpe {
@@ -118,7 +119,8 @@ Json SensitivityToJson(const MotionSensitivity& sensitivity) {
 
 std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
                          const EstimatorSummary& summary,
-                         const std::vector<Validation>& validations) {
+                         const std::vector<Validation>& validations,
+                         const ModelSelection* selection) {
   const CaptureInput& first = input.captures[0];
   const bool is_one = input.captures.size() == 1;
   Json report;
@@ -160,6 +162,8 @@ std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
   report["parameters"] = Parameters(input, summary);
   report["sensitivity"] = SensitivityToJson(summary.sensitivity);
   report["uncertainty"] = UncertaintyToJson(summary.uncertainty);
+  if (selection != nullptr)
+    report["model_selection"] = ModelSelectionToJson(*selection);
   // Text that is not UTF-8 (a file name, say) must not make the report fail.
   return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

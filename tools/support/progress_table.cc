@@ -166,6 +166,11 @@ void ProgressTable::Tick(double seconds) {
 void PrintTask(const EstimationInput& input) {
   const CaptureInput& first = input.captures[0];
   const JointLayout joint(input.scenes(), /*own_wind=*/true);
+  const std::string settings = input.auto_objects.empty()
+                                   ? SettingsString(first.scene) + ": " +
+                                         std::to_string(joint.layout().size()) +
+                                         " parameters"
+                                   : "auto: models";
   const auto describe_scene = [](const CaptureInput& capture) {
     return capture.scene_path.empty() ? "made of the target" : capture.scene_path;
   };
@@ -175,14 +180,12 @@ void PrintTask(const EstimationInput& input) {
                                         : capture.target_path);
   };
   if (input.captures.size() == 1) {
-    std::cout << "Scene " << describe_scene(first) << ", settings "
-              << SettingsString(first.scene) << ": " << joint.layout().size()
-              << " parameters to fit to " << describe_target(first) << std::endl;
+    std::cout << "Scene " << describe_scene(first) << ", settings " << settings
+              << " to fit to " << describe_target(first) << std::endl;
     return;
   }
-  std::cout << "Settings " << SettingsString(first.scene) << ": "
-            << joint.layout().size() << " parameters to fit to "
-            << input.captures.size() << " captures\n";
+  std::cout << "Settings " << settings << " to fit to " << input.captures.size()
+            << " captures\n";
   for (size_t c = 0; c < input.captures.size(); ++c) {
     std::cout << "Capture " << c + 1 << ": scene " << describe_scene(input.captures[c])
               << ", " << describe_target(input.captures[c]) << "\n";

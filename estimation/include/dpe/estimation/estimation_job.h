@@ -3,6 +3,7 @@
 #define DPE_ESTIMATION_ESTIMATION_JOB_H_
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "dpe/engine/trajectory.h"
 #include "dpe/estimation/estimator.h"
 #include "dpe/estimation/load_target.h"
+#include "dpe/estimation/model_selection.h"
 #include "dpe/estimation/observations.h"
 #include "dpe/estimation/scene_from_target.h"
 #include "dpe/estimation/trajectory_io.h"
@@ -20,7 +22,7 @@ struct EstimationJob {
   // One per capture, or one for all targets; empty: each target's is made of it.
   std::vector<std::string> scene_paths;
   SceneFromTargetOptions scene_from_target;
-  // What to estimate, as ApplySettings reads it; empty: as the scene says.
+  // What to estimate, as ApplyAutoSettings reads it; empty: as the scene says.
   std::string settings;
   // More to estimate: "damping", "drag", "wind", "initial_velocity", of all objects
   // that have it.
@@ -58,7 +60,8 @@ struct CaptureInput {
 struct EstimationInput {
   std::vector<CaptureInput> captures;
   std::vector<std::string> warnings;
-  bool truth_is_known = false;  // the scenes' values made the targets
+  std::vector<int> auto_objects;  // whose settings are to be chosen
+  bool truth_is_known = false;    // the scenes' values made the targets
 
   std::vector<const Scene*> scenes() const;
 };
@@ -80,11 +83,17 @@ struct Validation {
 //         simulated
 EstimationInput LoadEstimationInput(const EstimationJob& job);
 
-// Estimate with what was read.
-EstimatorSummary RunEstimation(const EstimationInput& input,
-                               const EstimatorOptions& options);
+// Estimate with what was read; where settings are to be chosen (input->auto_objects),
+// SelectModel, after which the scenes have the chosen ones.
+// @param started    told of each model that is about to be fitted, if set
+// @param selection  receives how the settings were chosen; not touched where they are
+//                   not to be
+EstimatorSummary RunEstimation(const EstimatorOptions& options,
+                               const std::function<void(const ModelFit&)>& started,
+                               EstimationInput* input, ModelSelection* selection);
 
-// The job's output folder, created if it is missing.
+// The job's output folder, created if it is missing. Where the settings are to be
+// chosen, its name says so: results/<scene>_auto.
 // @throws SceneError if it cannot be
 std::string PrepareOutputDir(const EstimationJob& job, const EstimationInput& input);
 
@@ -101,12 +110,14 @@ Validation Together(const std::vector<Validation>& validations);
 // trajectory_*.obj, see trajectory_format) and report.json, each atomically; only the
 // report if no point could be simulated. Of several captures scene_1.txt,
 // trajectory_1.csv (or trajectory_1_*.obj), scene_2.txt, ...
+// @param selection  how the settings were chosen; null: they were not
 // @return the paths written
 std::vector<std::string> WriteResults(const EstimationJob& job,
                                       const EstimationInput& input,
                                       const EstimatorSummary& summary,
                                       const std::vector<Validation>& validations,
-                                      const std::string& output_dir);
+                                      const std::string& output_dir,
+                                      const ModelSelection* selection = nullptr);
 
 // "<scene>_<settings>", the scene being its file name without extension, or that of the
 // target it was made of, with "_and_2_more" after it where there are others.

@@ -25,9 +25,16 @@ namespace dpe {
 // sensitivity), validation}]: what is of one capture. With several, scene, target and
 // sigma_m of the report itself are null, frames are those of the longest, and errors
 // and validation are over all.
+//
+// @param selection  null: the settings were given. Otherwise also model_selection
+//                   {criterion, frames, fitted_frames, held_out_frames, candidates
+//                   [{settings, parameters, termination, iterations, seconds,
+//                   fit_rms_m, held_out_rms_m, compared_with, weight, weight_deviation,
+//                   kept, reason}], chosen, reason}, see ModelCandidate
 std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
                          const EstimatorSummary& summary,
-                         const std::vector<Validation>& validations);
+                         const std::vector<Validation>& validations,
+                         const ModelSelection* selection = nullptr);
 
 }  // namespace dpe
 
