@@ -77,9 +77,10 @@ DEFINE_string(rest_shape, "",
 DEFINE_string(estimate, "",
               "More to estimate than --settings: damping, drag, wind, "
               "initial_velocity, separated by commas.");
-DEFINE_bool(estimate_initial_velocity, false,
-            "The same as --estimate initial_velocity: how fast every vertex moves at the "
-            "start.");
+DEFINE_bool(
+    estimate_initial_velocity, false,
+    "The same as --estimate initial_velocity: how fast every vertex moves at the "
+    "start.");
 DEFINE_string(
     uncertainty, "auto",
     "Error bars: on, off, or auto: if the noise is known or there are at most "
