@@ -77,6 +77,10 @@ DEFINE_string(rest_shape, "",
 DEFINE_string(estimate, "",
               "More to estimate than --settings: damping, drag, wind, "
               "initial_velocity, separated by commas.");
+DEFINE_bool(
+    estimate_initial_velocity, false,
+    "The same as --estimate initial_velocity: how fast every vertex moves at the "
+    "start.");
 DEFINE_string(
     uncertainty, "auto",
     "Error bars: on, off, or auto: if the noise is known or there are at most "
@@ -127,6 +131,18 @@ DEFINE_double(
     loss_scale, 0.0,
     "Scale of --loss in standard deviations of the noise; 0: the one at which "
     "95 % of the efficiency is kept on normal noise.");
+DEFINE_string(
+    prior, "",
+    "What is known of parameters beforehand, separated by ';': "
+    "QUANTITY:normal:MEAN,STD (SI units) or QUANTITY:lognormal:MEDIAN,STD (of the "
+    "logarithm). QUANTITY is mass, stiffness, damping, drag, wind or "
+    "initial_velocity, where wanted with a part and an object: stiffness[shear]@0.");
+DEFINE_string(
+    smoothness, "",
+    "How alike neighbouring springs or vertices of mode L are, as stiffness=WEIGHT or "
+    "mass=WEIGHT, separated by commas: 1 over the variance of the logarithm of their "
+    "ratio (100: they differ by 10 %). auto: the weight with which a fit to the first "
+    "80 % of the frames predicts the others best.");
 DEFINE_int32(max_iterations, -1,
              "Most iterations of the solver; -1: 200 for lm, 5000 for lbfgs, on each "
              "horizon.");
@@ -289,6 +305,7 @@ EstimationJob JobFromFlags() {
   job.target_paths = RepeatedPaths("target");
   job.target = TargetFromFlags();
   job.estimate = Split(FLAGS_estimate, ',');
+  if (FLAGS_estimate_initial_velocity) job.estimate.push_back("initial_velocity");
   job.trajectory_format =
       FromFlag("trajectory_format", FLAGS_trajectory_format, TrajectoryFormatFromName);
   job.options.uncertainty = UncertaintyFromFlag();
@@ -304,6 +321,8 @@ EstimationJob JobFromFlags() {
   job.options.horizon = HorizonFromFlag();
   job.options.loss = FromFlag("loss", FLAGS_loss, LossTypeFromName);
   job.options.loss_scale = FLAGS_loss_scale;
+  job.options.priors = FromFlag("prior", FLAGS_prior, PriorsFromText);
+  job.options.smoothness = FromFlag("smoothness", FLAGS_smoothness, SmoothnessFromText);
   job.options.init_perturbation = FLAGS_init_perturbation;
   job.options.seed = FLAGS_seed;
   job.options.max_iterations = FLAGS_max_iterations;

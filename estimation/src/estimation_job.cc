@@ -76,8 +76,7 @@ void EstimateMore(const std::string& what, Scene* scene) {
 }
 
 // @param path          of the scene; empty: it is made of `target`
-// @param input         receives warnings, and the objects whose settings are to be
-// chosen
+// @param input         receives warnings, and whose settings are to be chosen
 Scene LoadJobScene(const EstimationJob& job, const std::string& path,
                    const std::string& target, EstimationInput* input) {
   Scene scene = path.empty()

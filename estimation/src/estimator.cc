@@ -12,8 +12,10 @@
 #include "fit_problem.h"
 #include "fit_setup.h"
 #include "fit_uncertainty.h"
+#include "held_out_weights.h"
 #include "horizon.h"
 #include "optimizers.h"
+#include "prior_rows.h"
 #include "shooting_start.h"
 #include "starting_point.h"
 #include "stop_control.h"
@@ -165,12 +167,12 @@ class Fit {
   }
 
   // A start from inverse dynamics has seen the whole motion if all captures could be
-  // used for it.
+  // used for it, one that was given is somebody's answer.
   bool ShouldGrow() {
     if (options_.horizon != Horizon::kAuto) {
       return options_.horizon == Horizon::kGrow;
     }
-    return use_lm_ &&
+    return use_lm_ && start_.init != "given" &&
            (start_.init != "inverse_dynamics" || !AllAreComplete(fit_.captures()));
   }
 
@@ -221,7 +223,7 @@ class Fit {
   }
 
   void PerturbStart() {
-    if (options_.init_perturbation == 0.0) return;
+    if (options_.init_perturbation == 0.0 || start_.init == "given") return;
     std::mt19937_64 generator(options_.seed);
     std::normal_distribution<double> normal;
     Eigen::VectorXd parameters = evaluator()->map().ToParameters(start_.coordinates);
@@ -236,8 +238,9 @@ class Fit {
     const bool is_done = start_.init == "inverse_dynamics";
     if (is_done && options_.init_perturbation == 0.0) return;
     Eigen::VectorXd parameters = evaluator()->map().ToParameters(start_.coordinates);
-    const std::vector<std::string> notes = NormaliseScale(
-        captures_, problem()->layout(), FreeMass(captures_), &parameters);
+    const std::vector<std::string> notes =
+        NormaliseScale(captures_, problem()->layout(),
+                       MassToKeep(captures_, options_.priors), &parameters);
     if (notes.empty()) return;
     if (!is_done) {
       summary_.notes.insert(summary_.notes.end(), notes.begin(), notes.end());
@@ -310,10 +313,14 @@ class Fit {
     summary_.parameters = evaluator()->map().ToParameters(
         has_result ? evaluator()->best_coordinates() : problem()->coordinates());
     // Steps of the optimiser may have moved along the scale, which costs nothing.
-    NormaliseScale(captures_, problem()->layout(), FreeMass(captures_),
-                   &summary_.parameters);
+    NormaliseScale(captures_, problem()->layout(),
+                   MassToKeep(captures_, options_.priors), &summary_.parameters);
     summary_.final_cost = has_result ? evaluator()->best_cost() : nan;
     summary_.final_rms = has_result ? fit_.best_rms() : nan;
+    summary_.prior_cost =
+        has_result ? evaluator()->prior_rows().Cost(evaluator()->best_coordinates())
+                   : nan;
+    summary_.smoothness = options_.smoothness;
     summary_.iterations = context_.num_iterations;
     summary_.evaluations += evaluator()->num_rollouts();
     summary_.jacobian_evaluations += evaluator()->num_derivative_passes();
@@ -387,11 +394,21 @@ class Fit {
   double last_radius_ = 0.0;  // of the fit to all frames
 };
 
+EstimatorSummary EstimateCaptures(const std::vector<CaptureView>& captures,
+                                  const EstimatorOptions& options) {
+  const auto fit = [](const std::vector<CaptureView>& views,
+                      const EstimatorOptions& fit_options) {
+    return Fit(views, fit_options).Run();
+  };
+  return HasWeightsToChoose(options) ? FitWithChosenWeights(captures, options, fit)
+                                     : fit(captures, options);
+}
+
 }  // namespace
 
 EstimatorSummary Estimate(const Scene& scene, const Observations& observations,
                           const EstimatorOptions& options) {
-  return Fit({{&scene, &observations, "the capture"}}, options).Run();
+  return EstimateCaptures({{&scene, &observations, "the capture"}}, options);
 }
 
 EstimatorSummary Estimate(const std::vector<CapturedMotion>& captures,
@@ -403,7 +420,7 @@ EstimatorSummary Estimate(const std::vector<CapturedMotion>& captures,
                                  : capture.name;
     views.push_back({&capture.scene, &capture.observations, name});
   }
-  return Fit(views, options).Run();
+  return EstimateCaptures(views, options);
 }
 
 }  // namespace dpe

@@ -78,6 +78,14 @@ std::string DigestOf(const Observations& observations) {
   return digest.Text();
 }
 
+std::string PriorsText(const EstimatorOptions& options) {
+  std::string text;
+  for (const Prior& prior : options.priors) {
+    text += (text.empty() ? "" : ";") + PriorText(prior);
+  }
+  return text;
+}
+
 std::string Start(const EstimatorOptions& options) {
   switch (options.init) {
     case InitMethod::kAuto:
@@ -147,6 +155,10 @@ Fingerprint FingerprintOf(const std::vector<CaptureView>& captures,
                       {"init", Start(options)},
                       {"init_perturbation", Number(options.init_perturbation)},
                       {"seed", std::to_string(options.seed)}});
+  if (!options.priors.empty()) fingerprint.push_back({"priors", PriorsText(options)});
+  if (!options.smoothness.empty()) {
+    fingerprint.push_back({"smoothness", SmoothnessText(options.smoothness)});
+  }
   return fingerprint;
 }
 

@@ -28,7 +28,14 @@ FitProblem::FitProblem(std::vector<FitCapture> captures,
   if (!is_anything_observed) {
     throw SceneError("no free vertex of an estimated object is observed after frame 0");
   }
+  if (!noise_is_known_ && !(options.priors.empty() && options.smoothness.empty())) {
+    throw SceneError(
+        "priors and smoothness are weighed against the noise of the target, which is "
+        "not known: give its standard deviation (--sigma, or sigma in the target)");
+  }
   TrajectoryEvaluatorOptions evaluator_options = EvaluatorOptionsOf(options, stop);
+  evaluator_options.priors = options.priors;
+  evaluator_options.smoothness = options.smoothness;
   evaluator_options.own_wind = true;
   evaluator_options.improved = [this] { MeasureErrors(); };
   problem_ = std::make_unique<TrajectoryProblem>(

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fit_problem.h"
+#include "prior_rows.h"
 #include "residual_correlation.h"
 #include "tall_qr.h"
 
@@ -70,9 +71,13 @@ Uncertainty UncertaintyOfFit(const std::vector<FitCapture>& captures,
   input.data_triangle = evaluator->num_segments() == 1
                             ? Triangle(evaluator->jacobian(), options.num_threads)
                             : Triangle(evaluator->DenseJacobian(), options.num_threads);
-  input.residual_sum_of_squares = 2.0 * evaluator->cost();
+  input.residual_sum_of_squares = 2.0 * evaluator->data_cost();
   input.num_residuals = evaluator->num_residuals();
   input.noise_is_known = noise_is_known;
+  if (!evaluator->prior_rows().empty()) {
+    input.prior_rows =
+        evaluator->prior_rows().Triangle(input.coordinates, options.num_threads);
+  }
   UncertaintyOptions uncertainty_options;
   uncertainty_options.num_threads = options.num_threads;
   return ComputeUncertainty(input, uncertainty_options);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "sparse_least_squares.h"
+#include "starting_point.h"
 #include "step_equations.h"
 
 namespace dpe {
@@ -100,13 +101,7 @@ class InverseDynamics {
       // Homogeneous equations have the same solution up to its length whatever the
       // weight; this one keeps the row in proportion to the others.
       equations_.FixTotalMass(object, total_mass_[object], longest);
-      std::ostringstream note;
-      note << "object " << object
-           << ": no known force fixes the scale of mass and stiffness; the total mass "
-              "of "
-              "the free vertices is kept at "
-           << total_mass_[object] << " kg";
-      result_.notes.push_back(note.str());
+      result_.notes.push_back(ScaleNote(object, total_mass_[object]));
     }
   }
 

@@ -80,6 +80,32 @@ Json Captures(const EstimationInput& input, const EstimatorSummary& summary,
   return array;
 }
 
+Json Priors(const EstimationJob& job) {
+  Json array = Json::array();
+  for (const Prior& prior : job.options.priors) array.push_back(PriorText(prior));
+  return array;
+}
+
+Json Smoothness(const EstimatorSummary& summary) {
+  Json candidates = Json::array();
+  for (const SmoothnessCandidate& candidate : summary.smoothness_candidates) {
+    candidates.push_back(
+        {{"weight", JsonNumber(candidate.weight)},
+         {"training_cost", JsonNumber(candidate.training_cost)},
+         {"held_out_cost", JsonNumber(candidate.held_out_cost)},
+         {"held_out_rms_m", JsonNumber(candidate.held_out_rms)},
+         {"iterations", candidate.iterations},
+         {"chosen", candidate.is_chosen},
+         {"message",
+          candidate.message.empty() ? Json(nullptr) : Json(candidate.message)}});
+  }
+  Json array = Json::array();
+  for (const SmoothnessPrior& one : summary.smoothness) {
+    array.push_back(SmoothnessText(one));
+  }
+  return {{"priors", array}, {"candidates", candidates}};
+}
+
 Json SensitivityToJson(const MotionSensitivity& sensitivity) {
   if (!sensitivity.ok) return {{"ok", false}, {"message", sensitivity.message}};
   return {{"ok", true},
@@ -117,6 +143,7 @@ std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
   report["wall_time_s"] = JsonNumber(summary.wall_time_s);
   report["initial_cost"] = JsonNumber(summary.initial_cost);
   report["final_cost"] = JsonNumber(summary.final_cost);
+  report["prior_cost"] = JsonNumber(summary.prior_cost);
   report["initial_rms_position_error_m"] = JsonNumber(summary.initial_rms);
   report["rms_position_error_m"] = JsonNumber(summary.final_rms);
   report["validation"] = ValidationToJson(Together(validations));
@@ -129,6 +156,8 @@ std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
   report["sigma_m"] = is_one ? JsonNumber(first.target.sigma) : Json(nullptr);
   report["loss"] = LossTypeName(job.options.loss);
   report["captures"] = Captures(input, summary, validations);
+  report["priors"] = Priors(job);
+  report["smoothness"] = Smoothness(summary);
   report["horizons"] = Horizons(summary);
   report["parameters"] = Parameters(input, summary);
   report["sensitivity"] = SensitivityToJson(summary.sensitivity);

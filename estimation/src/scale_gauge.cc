@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "starting_point.h"
@@ -76,13 +77,38 @@ void RequireOneMass(const std::vector<CaptureView>& captures) {
   }
 }
 
+std::vector<double> MassToKeep(const std::vector<CaptureView>& captures,
+                               const std::vector<Prior>& priors) {
+  std::vector<double> masses = FreeMass(captures);
+  for (const Prior& prior : priors) {
+    if (prior.kind != ParameterKind::kMass && prior.kind != ParameterKind::kStiffness &&
+        prior.kind != ParameterKind::kDrag) {
+      continue;
+    }
+    for (int object = 0; object < static_cast<int>(masses.size()); ++object) {
+      if (prior.object >= 0 && prior.object != object) continue;
+      masses[object] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return masses;
+}
+
+std::string ScaleNote(int object, double free_mass) {
+  std::ostringstream note;
+  note << "object " << object
+       << ": no known force fixes the scale of mass and stiffness; the total mass of "
+          "the free vertices is kept at "
+       << free_mass << " kg";
+  return note.str();
+}
+
 std::vector<std::string> NormaliseScale(const std::vector<CaptureView>& captures,
                                         const ParameterLayout& layout,
                                         const std::vector<double>& free_mass,
                                         Eigen::VectorXd* parameters) {
   std::vector<std::string> notes;
   for (int object = 0; object < static_cast<int>(free_mass.size()); ++object) {
-    if (!ScaleIsFree(captures, object)) continue;
+    if (!ScaleIsFree(captures, object) || std::isnan(free_mass[object])) continue;
     double sum = 0.0;
     for (const ParameterBlock& block : layout.blocks()) {
       if (block.object != object || block.kind != ParameterKind::kMass) continue;
@@ -98,12 +124,7 @@ std::vector<std::string> NormaliseScale(const std::vector<CaptureView>& captures
         parameters->segment(block.offset, block.size) *= free_mass[object] / sum;
       }
     }
-    std::ostringstream note;
-    note << "object " << object
-         << ": no known force fixes the scale of mass and stiffness; the total mass of "
-            "the free vertices is kept at "
-         << free_mass[object] << " kg";
-    notes.push_back(note.str());
+    notes.push_back(ScaleNote(object, free_mass[object]));
   }
   return notes;
 }

@@ -1,6 +1,7 @@
 #include "starting_point.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "dpe/estimation/inverse_dynamics.h"
 
@@ -59,6 +60,18 @@ void StartWhereScenesDo(const std::vector<FitCapture>& captures,
   }
 }
 
+// Where a prior fixes the scale, no mass is kept.
+void RemoveScaleNotes(const std::vector<double>& free_mass,
+                      const std::vector<double>& to_keep,
+                      std::vector<std::string>* notes) {
+  for (size_t object = 0; object < to_keep.size(); ++object) {
+    if (!std::isnan(to_keep[object])) continue;
+    const std::string note = ScaleNote(static_cast<int>(object), free_mass[object]);
+    notes->erase(std::remove(notes->begin(), notes->end(), note), notes->end());
+  }
+}
+
+// Priors decide the scale of what motion alone leaves free, after this start.
 StartingPoint FromInverseDynamics(const StartContext& context) {
   const std::vector<FitCapture>& captures = *context.captures;
   TrajectoryEvaluator* evaluator = context.evaluator;
@@ -72,8 +85,11 @@ StartingPoint FromInverseDynamics(const StartContext& context) {
                        evaluator->num_frames(c), c});
     if (captures[c].blank.steps_per_frame > 1) ++num_framewise;
   }
-  InverseDynamicsResult result = SolveInverseDynamics(
-      motions, evaluator->joint_layout(), FreeMass(*context.given));
+  const std::vector<double> free_mass = FreeMass(*context.given);
+  InverseDynamicsResult result =
+      SolveInverseDynamics(motions, evaluator->joint_layout(), free_mass);
+  RemoveScaleNotes(free_mass, MassToKeep(*context.given, context.options->priors),
+                   &result.notes);
   StartingPoint start;
   start.init = "inverse_dynamics";
   start.message = result.message;
@@ -123,6 +139,16 @@ Eigen::VectorXd SceneParameters(const StartContext& context) {
   return context.evaluator->joint_layout().Extract(scenes);
 }
 
+StartingPoint GivenStart(const StartContext& context) {
+  const Eigen::VectorXd& start = context.options->start;
+  const ParameterMap& map = context.evaluator->map();
+  if (start.size() != map.size()) {
+    throw SceneError("the start that was given has " + std::to_string(start.size()) +
+                     " values for " + std::to_string(map.size()) + " parameters");
+  }
+  return FromParameters(start, "given", map);
+}
+
 }  // namespace
 
 bool AllAreComplete(const std::vector<FitCapture>& captures) {
@@ -131,6 +157,7 @@ bool AllAreComplete(const std::vector<FitCapture>& captures) {
 
 StartingPoint FindStartingPoint(const StartContext& context) {
   TrajectoryEvaluator* evaluator = context.evaluator;
+  if (context.options->start.size() > 0) return GivenStart(context);
   switch (context.options->init) {
     case InitMethod::kInverseDynamics:
       return FromInverseDynamics(context);

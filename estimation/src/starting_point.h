@@ -24,6 +24,10 @@ struct StartingPoint {
 // The sum of the masses of each object's vertices that are free in any capture, kg.
 std::vector<double> FreeMass(const std::vector<CaptureView>& captures);
 
+// The same, NaN for objects whose scale a prior on mass, stiffness or drag fixes.
+std::vector<double> MassToKeep(const std::vector<CaptureView>& captures,
+                               const std::vector<Prior>& priors);
+
 // True if scaling all unknown masses, stiffnesses and drags of `object` together leaves
 // its motion unchanged: mass and stiffness are unknown, drag is zero or unknown, and
 // no capture has colliders.
@@ -33,8 +37,11 @@ bool ScaleIsFree(const std::vector<CaptureView>& captures, int object);
 //         scale
 void RequireOneMass(const std::vector<CaptureView>& captures);
 
+// The note that says so.
+std::string ScaleNote(int object, double free_mass);
+
 // Scales the parameters of objects with a free scale so that the masses of their free
-// vertices add up to `free_mass` (kg, one per object).
+// vertices add up to `free_mass` (kg, one per object; NaN: leave as it is).
 // @return  one note per such object
 std::vector<std::string> NormaliseScale(const std::vector<CaptureView>& captures,
                                         const ParameterLayout& layout,

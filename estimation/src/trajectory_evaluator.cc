@@ -9,6 +9,7 @@
 #include "dpe/engine/parallel.h"
 #include "dpe/engine/scene_io.h"
 #include "link_cost.h"
+#include "prior_rows.h"
 #include "segment_rollout.h"
 
 namespace dpe {
@@ -74,6 +75,8 @@ void TrajectoryEvaluator::MakeSegments(std::vector<TrajectorySegment> segments,
   for (const TrajectorySegment& segment : segments) scenes.push_back(&segment.scene);
   joint_ = std::make_unique<JointLayout>(scenes, options_.own_wind);
   map_ = ParameterMap(layout());
+  prior_rows_ = std::make_unique<PriorRows>(segments[0].scene, layout(),
+                                            options_.priors, options_.smoothness);
   const int num_segments = static_cast<int>(segments.size());
   links_.resize(links.size());
   int num_rows = 0;
@@ -169,6 +172,7 @@ bool TrajectoryEvaluator::Evaluate(const Eigen::VectorXd& coordinates) {
     return Fail(message_);
   }
   SubtractLinkTargets(parameters);
+  prior_cost_ = prior_rows_->Cost(coordinates);
   if (!std::isfinite(cost())) return Fail("the cost is not a finite number");
   ok_ = true;
   message_.clear();
@@ -202,7 +206,7 @@ bool TrajectoryEvaluator::CostOverHorizon(const Eigen::VectorXd& coordinates,
                                           &parts[s]);
   });
   num_rollouts_ += num_segments();
-  *cost = 0.0;
+  *cost = prior_rows_->Cost(coordinates);
   for (double part : parts) *cost += part;
   return std::all_of(ok.begin(), ok.end(), [](char c) { return c != 0; });
 }
@@ -269,6 +273,7 @@ bool TrajectoryEvaluator::EvaluateGradient(Eigen::VectorXd* gradient) {
     }
   }
   gradient->array() *= map_.Derivative(coordinates_).array();
+  prior_rows_->AddGradient(coordinates_, gradient);
   return true;
 }
 

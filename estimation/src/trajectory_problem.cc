@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "prior_cost_function.h"
 #include "reduced_problem.h"
 
 namespace dpe {
@@ -164,6 +165,12 @@ void TrajectoryProblem::AddCosts() {
       blocks.push_back(block_coordinates(block));
     }
     least_squares_.AddResidualBlock(function, nullptr, blocks);
+  }
+  const PriorRows& rows = evaluator_.prior_rows();
+  for (const PriorRows::Piece& piece : rows.pieces()) {
+    least_squares_.AddResidualBlock(
+        new PriorCostFunction(&rows, piece, layout().blocks()[piece.block]), nullptr,
+        block_coordinates(piece.block));
   }
 }
 

@@ -31,8 +31,9 @@ class StatementMaker {
     SingleParameters();
     Directions();
     ForEachBlock(kPriorAlone, 0, [](const BlockUncertainty&, bool one) {
-      return std::string(": the data add next to nothing to ") +
-             (one ? "its prior" : "their priors");
+      return std::string(one ? " is determined by its prior alone"
+                             : " are determined by their priors alone") +
+             ": the data add next to nothing";
     });
     const std::vector<CorrelatedPair>& pairs = uncertainty_.strongest_pairs;
     for (size_t k = 0; k < std::min(kMaxPairs, pairs.size()); ++k) {

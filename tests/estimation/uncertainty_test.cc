@@ -114,7 +114,7 @@ TEST(UncertaintyTest, AgreesWithMonteCarloOnALinearGaussianProblem) {
   EXPECT_EQ(result.blocks[2].flags[0], kPriorAlone);
   EXPECT_NEAR(result.blocks[2].relative[0], 0.2, 1e-3);
   EXPECT_TRUE(AnyContains(result.statements,
-                          "the damping of object 0: the data add next to nothing"));
+                          "the damping of object 0 is determined by its prior alone"));
   EXPECT_EQ(result.blocks[0].flags[0], 0u);
   // Velocities have no relative deviation.
   EXPECT_TRUE(std::isnan(result.blocks[4].relative[0]));

@@ -109,6 +109,19 @@ void PrintErrors(const EstimatorSummary& summary,
   }
 }
 
+void PrintSmoothness(const EstimatorSummary& summary) {
+  if (summary.smoothness_candidates.empty()) return;
+  std::printf("%16s %14s %14s %17s\n", "smoothness", "training cost", "held-out cost",
+              "held-out RMS (m)");
+  for (const SmoothnessCandidate& candidate : summary.smoothness_candidates) {
+    std::printf("%16g %14.6g %14.6g %17.5g%s%s\n", candidate.weight,
+                candidate.training_cost, candidate.held_out_cost,
+                candidate.held_out_rms, candidate.is_chosen ? "  chosen" : "",
+                candidate.message.empty() ? "" : ("  " + candidate.message).c_str());
+  }
+  std::fflush(stdout);
+}
+
 void PrintUncertainty(const Uncertainty& uncertainty) {
   if (!uncertainty.ok) std::cout << "Error bars: none, ";
   for (const std::string& line : UncertaintyLines(uncertainty)) {
@@ -193,6 +206,8 @@ void PrintSummary(const EstimationInput& input, const EstimatorSummary& summary,
   for (const std::string& note : summary.notes) std::cout << "Note: " << note << "\n";
   if (std::isfinite(summary.final_cost)) {
     PrintErrors(summary, validations);
+    std::cout.flush();  // the table goes past it
+    PrintSmoothness(summary);
     PrintBlocks(input, summary);
     PrintUncertainty(summary.uncertainty);
     if (summary.sensitivity.ok) std::cout << summary.sensitivity.text << "\n";

@@ -14,6 +14,7 @@
 #include "dpe/engine/trajectory.h"
 #include "dpe/estimation/motion_sensitivity.h"
 #include "dpe/estimation/observations.h"
+#include "dpe/estimation/priors.h"
 #include "dpe/estimation/robust_loss.h"
 #include "dpe/estimation/uncertainty.h"
 
@@ -82,6 +83,9 @@ struct EstimatorOptions {
   int max_checked_parameters = 3;
   int max_iterations = -1;  // negative: 200 for LM, 5000 for L-BFGS
   double max_seconds = 1e9;
+  // If not empty, the parameters (layout order, SI units) to start from as they are,
+  // instead of `init`; Horizon::kAuto is then kFull.
+  Eigen::VectorXd start;
   int num_threads = 1;
   // What the fit's rollouts may keep beyond their trajectories, see SimulatorOptions.
   std::size_t memory_limit_bytes = SimulatorOptions().memory_limit_bytes;
@@ -91,6 +95,10 @@ struct EstimatorOptions {
   // of the noise (m where that is not known); 0: RobustLoss::DefaultScale.
   LossType loss = LossType::kNone;
   double loss_scale = 0.0;
+
+  // What is known beforehand; the noise has to be known, too.
+  std::vector<Prior> priors;
+  std::vector<SmoothnessPrior> smoothness;
 
   Horizon horizon = Horizon::kAuto;
   // Error bars cost one Jacobian and its decomposition.
@@ -147,6 +155,19 @@ struct EstimatedBlock {
   std::vector<int> inactive;  // elements without influence on the motion
 };
 
+// One weight that was tried for the smoothness priors whose weight is to be chosen. The
+// fit sees the first 80 % of the frames; the weight that predicts the others best is
+// taken for the fit to all of them.
+struct SmoothnessCandidate {
+  double weight = 0.0;
+  double training_cost = 0.0;  // 1/2 sum of squared residuals, without priors
+  double held_out_cost = 0.0;  // likewise, of the frames that the fit did not see
+  double held_out_rms = 0.0;   // m
+  int iterations = 0;
+  bool is_chosen = false;
+  std::string message;  // why the held-out cost is infinite
+};
+
 // One motion that was captured: the scene in which it was, and what was seen of it.
 struct CapturedMotion {
   Scene scene;
@@ -177,11 +198,14 @@ struct EstimatorSummary {
   double wall_time_s = 0.0;
   double initial_cost = 0.0;  // 1/2 sum of squared residuals, see PositionCost
   double final_cost = 0.0;
+  double prior_cost = 0.0;   // the part of it that priors have
   double initial_rms = 0.0;  // m
   double final_rms = 0.0;
-  int num_frames = 0;                  // of the longest capture
-  std::vector<HorizonStage> horizons;  // empty: all frames at once
-  Eigen::VectorXd parameters;          // order of the (joint) layout, SI units
+  int num_frames = 0;                       // of the longest capture
+  std::vector<HorizonStage> horizons;       // empty: all frames at once
+  std::vector<SmoothnessPrior> smoothness;  // with the weights that were used
+  std::vector<SmoothnessCandidate> smoothness_candidates;  // strongest first
+  Eigen::VectorXd parameters;  // order of the (joint) layout, SI units
   std::vector<EstimatedBlock> blocks;
   Scene scene;  // the (first) input scene with the estimated values in it
   std::vector<CaptureSummary> captures;  // in the order in which they were given

@@ -3,6 +3,9 @@
 //   q -> p = map(q) -> states = rollouts(p) -> r = costs(states)
 //   dr/dq = dr/dstates * dstates/dp * dp/dq
 //
+// Priors on q (priors.h) add residuals that need no rollout; they count in cost(), its
+// gradient and what the best point is, but have no rows in residuals() and jacobian().
+//
 // One rollout of every segment per new point, one derivative pass of each when
 // derivatives are asked for, whatever the number of costs; the last point's results are
 // kept. Segments (trajectory_segment.h) are worked on in parallel; the results are the
@@ -23,6 +26,7 @@
 #include "dpe/engine/simulator.h"
 #include "dpe/estimation/joint_layout.h"
 #include "dpe/estimation/parameterization.h"
+#include "dpe/estimation/priors.h"
 #include "dpe/estimation/trajectory_cost.h"
 #include "dpe/estimation/trajectory_segment.h"
 
@@ -41,16 +45,20 @@ struct TrajectoryEvaluatorOptions {
   std::function<bool()> interrupted;
   // Called after every evaluation whose cost is the least so far.
   std::function<void()> improved;
+  // Of the joint parameters; residuals have to be in standard deviations of the noise.
+  std::vector<Prior> priors;
+  std::vector<SmoothnessPrior> smoothness;
 };
 
 class SegmentRollout;
 class LinkCost;
+class PriorRows;
 
 class TrajectoryEvaluator {
  public:
   // Simulates the estimated objects of `scene`, as many frames as the costs read.
-  // @throws SceneError if the scene is not valid or the costs read a state that is not
-  //         simulated.
+  // @throws SceneError if the scene is not valid, the costs read a state that is not
+  //         simulated, or a prior is not possible or of nothing that is estimated.
   TrajectoryEvaluator(const Scene& scene, TrajectoryCosts costs,
                       const TrajectoryEvaluatorOptions& options = {});
 
@@ -88,7 +96,8 @@ class TrajectoryEvaluator {
   bool Evaluate(const Eigen::VectorXd& coordinates);
 
   // The cost over a shorter horizon: of those costs that read only frames below
-  // `num_frames`. False if the rollout or a cost failed. Not remembered as a point.
+  // `num_frames`, and the priors. False if the rollout or a cost failed. Not remembered
+  // as a point.
   // Without links.
   bool CostOverHorizon(const Eigen::VectorXd& coordinates, int num_frames,
                        double* cost);
@@ -97,7 +106,7 @@ class TrajectoryEvaluator {
   // system of the derivative pass could not be solved or the result is not finite.
   bool EvaluateJacobian();
 
-  // d(1/2 |r|^2)/dq there, by one adjoint pass.
+  // d cost()/dq there, by one adjoint pass.
   bool EvaluateGradient(Eigen::VectorXd* gradient);
 
   // Results of the last successful calls.
@@ -109,12 +118,15 @@ class TrajectoryEvaluator {
   RowMajorMatrix DenseJacobian() const;
   // The squared lengths of its columns, without making it; links' targets left out.
   Eigen::VectorXd JacobianColumnSquares() const;
-  double cost() const { return 0.5 * residuals_.squaredNorm(); }
+  double data_cost() const { return 0.5 * residuals_.squaredNorm(); }
+  double prior_cost() const { return prior_cost_; }
+  double cost() const { return data_cost() + prior_cost(); }
+  const PriorRows& prior_rows() const { return *prior_rows_; }
   const Trajectory& trajectory(int segment = 0) const;
   bool ok() const { return ok_; }
   const std::string& message() const { return message_; }
 
-  // The point of least cost so far; empty before the first success.
+  // The point of least cost() so far; empty before the first success.
   const Eigen::VectorXd& best_coordinates() const { return best_coordinates_; }
   double best_cost() const { return best_cost_; }
 
@@ -161,11 +173,13 @@ class TrajectoryEvaluator {
   std::vector<Link> links_;
   std::unique_ptr<JointLayout> joint_;
   ParameterMap map_;
+  std::unique_ptr<PriorRows> prior_rows_;
 
   Eigen::VectorXd coordinates_;  // of the last evaluation
   bool ok_ = false;
   std::string message_ = "nothing was evaluated yet";
   Eigen::VectorXd residuals_;
+  double prior_cost_ = 0.0;
   bool jacobian_is_current_ = false;
 
   Eigen::VectorXd best_coordinates_;

@@ -46,9 +46,10 @@ class TrajectoryProblem : private ceres::EvaluationCallback {
   void set_coordinates(const Eigen::VectorXd& coordinates);
   double* block_coordinates(int block);
 
-  // The least-squares problem; further residual blocks (a prior, say) may be added over
-  // block_coordinates(). Do not use Ceres's check_gradients with it: that clones the
-  // problem without its callback.
+  // The least-squares problem; the priors of the evaluator's options are in it. Further
+  // residual blocks may be added over block_coordinates(), of which the evaluator's
+  // cost and best point and NewFirstOrderFunction() know nothing. Do not use Ceres's
+  // check_gradients with it: that clones the problem without its callback.
   ceres::Problem* least_squares() { return &least_squares_; }
 
   // The same problem, with further residual blocks as they stand at the call, losses,
