@@ -192,7 +192,7 @@ class Fit {
         ShootForStart(fit_.captures()[0], start_.coordinates, &context_);
     summary_.notes.insert(summary_.notes.end(), shot.notes.begin(), shot.notes.end());
     context_.first_iteration = context_.num_iterations;
-    if (shot.ok) TakeBetter(shot.coordinates);
+    TakeBetter(shot.coordinates);
   }
 
   // @param resumed  where to continue; null: at the start
@@ -210,6 +210,7 @@ class Fit {
   // Goes on from the better of the start, if it can be simulated, and what has been
   // made of it.
   void TakeBetter(const Eigen::VectorXd& coordinates) {
+    const StopControl::Grace grace(&stop_);
     const bool is_ok = evaluator()->Evaluate(coordinates);
     if (!start_.ok) {
       start_.ok = is_ok;

@@ -45,7 +45,7 @@ ShootingStart ShootForStart(const FitCapture& capture, const Eigen::VectorXd& st
   const MultipleShootingSummary summary =
       MultipleShooting(capture.blank, capture.observations, capture.num_frames,
                        map.ToParameters(start), options);
-  return {summary.ok, map.ToCoordinates(summary.parameters), {Describe(summary)}};
+  return {map.ToCoordinates(summary.parameters), {Describe(summary)}};
 }
 
 }  // namespace dpe

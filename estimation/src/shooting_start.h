@@ -12,7 +12,6 @@
 namespace dpe {
 
 struct ShootingStart {
-  bool ok = false;              // a single rollout with the parameters runs
   Eigen::VectorXd coordinates;  // of ParameterMap
   std::vector<std::string> notes;
 };

@@ -21,8 +21,22 @@ class StopControl {
 
   double Seconds() const { return seconds_before_ + SecondsOfThisRun(); }
 
+  // While one exists, what is worth finishing is not stopped: one more rollout, so that
+  // what was found until then is not lost.
+  class Grace {
+   public:
+    explicit Grace(StopControl* stop) : stop_(stop) { stop_->has_grace_ = true; }
+    ~Grace() { stop_->has_grace_ = false; }
+    Grace(const Grace&) = delete;
+    Grace& operator=(const Grace&) = delete;
+
+   private:
+    StopControl* stop_;
+  };
+
   // True from the first time on that there is a reason to stop.
   bool Poll() {
+    if (has_grace_) return false;
     if (!was_interrupted_ && interrupted_ && interrupted_()) was_interrupted_ = true;
     if (!ran_out_of_time_ && SecondsOfThisRun() >= max_seconds_)
       ran_out_of_time_ = true;
@@ -47,6 +61,7 @@ class StopControl {
   // Rollouts of several objects may poll from several threads.
   std::atomic<bool> was_interrupted_{false};
   std::atomic<bool> ran_out_of_time_{false};
+  std::atomic<bool> has_grace_{false};
 };
 
 }  // namespace dpe

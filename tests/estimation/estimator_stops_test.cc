@@ -80,6 +80,20 @@ TEST_F(EstimatorStopsTest, AFailedStartOfOneParameterIsReplacedByTheScreens) {
   EXPECT_EQ(Estimate(scene_, target_, options_).termination, Termination::kConverged);
 }
 
+// What has been found over fewer frames is not lost when time is up before all frames
+// have been looked at.
+TEST_F(EstimatorStopsTest, StoppedWhileItGrowsOrShootsItKeepsWhatItFound) {
+  for (const Horizon horizon : {Horizon::kGrow, Horizon::kShooting}) {
+    int num_reports = 0;
+    options_.horizon = horizon;
+    options_.progress = [&](const IterationReport&) { ++num_reports; };
+    options_.interrupted = [&] { return num_reports >= 5; };
+    const EstimatorSummary summary = Estimate(scene_, target_, options_);
+    EXPECT_EQ(summary.termination, Termination::kInterrupted);
+    EXPECT_LT(summary.final_rms, 0.5 * summary.initial_rms) << num_reports;
+  }
+}
+
 TEST_F(EstimatorStopsTest, IterationLimit) {
   options_.max_iterations = 2;
   const EstimatorSummary summary = Estimate(scene_, target_, options_);
