@@ -51,4 +51,13 @@ bool HasElements(const Scenes& scenes) {
       [](const ParameterBlock& block) { return block.mode == ParameterMode::kLocal; });
 }
 
+bool HasElements(const Scenes& scenes, ParameterKind kind, int object) {
+  const ParameterLayout layout = LayoutOf(scenes);
+  return std::any_of(
+      layout.blocks().begin(), layout.blocks().end(), [&](const ParameterBlock& block) {
+        return block.mode == ParameterMode::kLocal && block.kind == kind &&
+               (object < 0 || block.object == object);
+      });
+}
+
 }  // namespace dpe

@@ -30,6 +30,8 @@ ParameterLayout LayoutOf(const Scenes& scenes);
 
 // True if something is estimated with one unknown per element.
 bool HasElements(const Scenes& scenes);
+// The same of one quantity. @param object  -1: of any
+bool HasElements(const Scenes& scenes, ParameterKind kind, int object);
 
 }  // namespace dpe
 

@@ -63,9 +63,20 @@ int NumFittedFrames(int num_frames, double held_out_fraction) {
   return num_frames - std::clamp(held_out, 1, num_frames - 3);
 }
 
-void StopEarly(EstimatorOptions* options) {
-  options->function_tolerance =
-      std::max(options->function_tolerance, kElementFunctionTolerance);
+// Options for a model with these scenes: smoothness where there are elements that can
+// be smooth; elements without it are regularised by stopping early.
+void UseOnElements(const Scenes& scenes, EstimatorOptions* options) {
+  auto& smoothness = options->smoothness;
+  smoothness.erase(std::remove_if(smoothness.begin(), smoothness.end(),
+                                  [&](const SmoothnessPrior& prior) {
+                                    return !HasElements(scenes, prior.kind,
+                                                        prior.object);
+                                  }),
+                   smoothness.end());
+  if (smoothness.empty() && HasElements(scenes)) {
+    options->function_tolerance =
+        std::max(options->function_tolerance, kElementFunctionTolerance);
+  }
 }
 
 struct FittedModel {
@@ -259,7 +270,7 @@ class ModelSelector {
     EstimatorOptions options = OptionsNow();
     options.max_seconds *= kShareOfTime;
     options.uncertainty = UncertaintyMode::kOff;
-    if (HasElements(scenes)) StopEarly(&options);
+    UseOnElements(scenes, &options);
     Announce(*row, num_fitted_, false);
     const double before = stop_.Seconds();
     FittedModel model;
@@ -322,8 +333,10 @@ class ModelSelector {
       return;
     }
     EstimatorOptions options = OptionsNow();
-    const bool stops_early = HasElements(best_.scenes) && !best_.forecast.is_exact;
-    if (stops_early) StopEarly(&options);
+    const double tolerance = options.function_tolerance;
+    UseOnElements(best_.scenes, &options);
+    if (best_.forecast.is_exact) options.function_tolerance = tolerance;
+    const bool stops_early = options.function_tolerance > tolerance;
     Announce(Row(best_.scenes), num_frames_, true);
     result_.summary =
         FitFrom(best_.scenes, whole_,

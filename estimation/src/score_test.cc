@@ -62,7 +62,10 @@ ScoreTest TestScore(const std::vector<CapturedMotion>& captures,
     views.push_back({&capture.scene, &capture.observations, capture.name});
     scenes.push_back(&capture.scene);
   }
-  FitProblem fit(PrepareCaptures(views, 0), options, stop);
+  EstimatorOptions data_alone = options;
+  data_alone.priors.clear();
+  data_alone.smoothness.clear();
+  FitProblem fit(PrepareCaptures(views, 0), data_alone, stop);
   TrajectoryEvaluator* evaluator = fit.evaluator();
   const Eigen::VectorXd coordinates =
       evaluator->map().ToCoordinates(evaluator->joint_layout().Extract(scenes));

@@ -149,6 +149,25 @@ TEST(ModelSelectionTest, ALargeSmoothVariationIsSeenThroughTheNoise) {
   }
 }
 
+// A smoothness prior is for the models that have elements.
+TEST(ModelSelectionTest, SmoothnessIsOfTheModelWithElementsAlone) {
+  const Scene truth = Truth('L', 6, 2);
+  Observations target = Capture(truth, 60, 30, 2);
+  target.sigma = kSigma;
+  EstimatorOptions options;
+  options.smoothness.push_back({ParameterKind::kStiffness, -1, 30.0, false});
+  const SelectedModel smooth = Select(truth, target, options);
+  const SelectedModel plain = Select(truth, target);
+  EXPECT_EQ(smooth.selection.chosen, "nL");
+  EXPECT_EQ(plain.selection.chosen, "nL");
+  EXPECT_EQ(Row(smooth, "nR").held_out_rms, Row(plain, "nR").held_out_rms);
+  EXPECT_NE(Row(smooth, "nL").held_out_rms, Row(plain, "nL").held_out_rms);
+  EXPECT_LT(Row(smooth, "nL").held_out_rms, 0.5 * Row(smooth, "nR").held_out_rms);
+  EXPECT_EQ(smooth.summary.smoothness.size(), 1u);
+  EXPECT_FALSE(test::HasNote(smooth.summary, "less than 1 %"));
+  EXPECT_TRUE(test::HasNote(plain.summary, "less than 1 %"));
+}
+
 // Objects that nothing couples are decided one after the other.
 TEST(ModelSelectionTest, EachObjectGetsItsOwn) {
   Scene scene = Truth('G', 5);
