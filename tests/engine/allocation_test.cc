@@ -14,15 +14,7 @@
 
 #include "dpe/engine/cloth_builder.h"
 #include "dpe/engine/simulator.h"
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define DPE_TEST_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define DPE_TEST_SANITIZED
-#endif
+#include "support/sanitizers.h"
 
 #if defined(__GLIBC__) && !defined(DPE_TEST_SANITIZED)
 
