@@ -11,6 +11,7 @@
 
 #include "inner_states.h"
 #include "memory_plan.h"
+#include "support/sanitizers.h"
 #include "support/scene_derivatives.h"
 #include "support/test_scenes.h"
 
@@ -136,8 +137,7 @@ TEST(MemoryLimitTest, OneStepOfOneStageKeepsFactorizationsAlone) {
   }
 }
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !defined(DPE_TEST_SANITIZED)
 
 std::size_t HeapBytes() {
   const struct mallinfo2 info = mallinfo2();

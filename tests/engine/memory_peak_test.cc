@@ -2,7 +2,9 @@
 // process of its own.
 //
 // Sanitizers take memory of their own: there is nothing to measure under them.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#include "support/sanitizers.h"
+
+#ifndef DPE_TEST_SANITIZED
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

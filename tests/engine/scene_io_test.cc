@@ -26,7 +26,9 @@ using ::testing::StartsWith;
 
 template <typename Values>
 bool SameBits(const Values& a, const Values& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() &&
+  if (a.rows() != b.rows() || a.cols() != b.cols()) return false;
+  // Nothing has no address, which memcmp must not be given.
+  return a.size() == 0 ||
          std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 

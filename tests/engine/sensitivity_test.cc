@@ -11,6 +11,7 @@
 
 #include "dpe/engine/simulator.h"
 #include "support/derivative_checker.h"
+#include "support/sanitizers.h"
 #include "support/scene_derivatives.h"
 #include "support/test_scenes.h"
 
@@ -19,7 +20,7 @@ namespace {
 
 // Vertices per side of the cloths; sanitizers, which slow everything down twentyfold,
 // see the same code on smaller ones.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef DPE_TEST_SANITIZED
 constexpr int kHalfResolution = 3;
 #else
 constexpr int kHalfResolution = 6;

@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "linear/float4.h"
 #include "linear/vectorize.h"
 
 namespace dpe {
 namespace {
 
-// Four numbers at any address; the fourth of a column of a block belongs to the next
-// one and is carried along unused.
-typedef float Float4 __attribute__((vector_size(16), aligned(4), may_alias));
-
+// Of four numbers the fourth belongs to a block's next column and is carried along
+// unused.
 constexpr int kPadding = 4;  // a load of the last column reads one number past the end
 
 // sum - A_i,first..last x for the blocks `first` to `last` of one row.
@@ -22,9 +21,9 @@ inline Float4 Subtract(const float* values, const int* columns, int first, int l
   const float* block = values + 9 * static_cast<size_t>(first);
   for (int k = first; k < last; ++k, block += 9) {
     const float* in = x + 3 * columns[k];
-    sum -= *reinterpret_cast<const Float4*>(block) * in[0];
-    s1 += *reinterpret_cast<const Float4*>(block + 3) * in[1];
-    s2 += *reinterpret_cast<const Float4*>(block + 6) * in[2];
+    sum -= LoadFour(block) * in[0];
+    s1 += LoadFour(block + 3) * in[1];
+    s2 += LoadFour(block + 6) * in[2];
   }
   return sum - (s1 + s2);
 }
@@ -38,9 +37,8 @@ inline void Store(Float4 v, float* out) {
 inline Float4 Load(const float* in) { return Float4{in[0], in[1], in[2], 0.0f}; }
 
 inline void StoreSolution(const float* inverse, Float4 v, float* out) {
-  Store(*reinterpret_cast<const Float4*>(inverse) * v[0] +
-            *reinterpret_cast<const Float4*>(inverse + 4) * v[1] +
-            *reinterpret_cast<const Float4*>(inverse + 8) * v[2],
+  Store(LoadFour(inverse) * v[0] + LoadFour(inverse + 4) * v[1] +
+            LoadFour(inverse + 8) * v[2],
         out);
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "linear/float4.h"
 #include "linear/vectorize.h"
 
 namespace dpe {
@@ -15,13 +16,6 @@ constexpr float kOmega = 0.9f;  // of the prolongation's smoothing
 constexpr float kLeastStrength = 1e-6f;  // of the largest
 constexpr float kStrong = 0.25f;
 constexpr int kBlockStride = 12;  // of the row of A P at hand, with room to spare
-
-typedef float Float4 __attribute__((vector_size(16), aligned(4), may_alias));
-
-inline const Float4& At(const float* in) {
-  return *reinterpret_cast<const Float4*>(in);
-}
-inline Float4& At(float* in) { return *reinterpret_cast<Float4*>(in); }
 
 inline float Coupling(const float* block) {
   return std::max(0.0f, -(block[0] + block[4] + block[8]));
@@ -79,13 +73,13 @@ inline const std::uint16_t* AddProducts(const SingleRows::Rows& a, int first, in
                                         const std::uint16_t* slots, float* row) {
   for (int k = first; k < last; ++k) {
     const float* block = a.values + 9 * static_cast<size_t>(k);
-    const Float4 head = At(block), middle = At(block + 4);
+    const Float4 head = LoadFour(block), middle = LoadFour(block + 4);
     const float tail = block[8];
     const int j = a.columns[k];
     for (int e = p.starts[j]; e < p.starts[j + 1]; ++e) {
       float* out = row + kBlockStride * *slots++;
-      At(out) += head * weights[e];
-      At(out + 4) += middle * weights[e];
+      AddFour(head * weights[e], out);
+      AddFour(middle * weights[e], out + 4);
       out[8] += tail * weights[e];
     }
   }
@@ -111,8 +105,8 @@ void AddCoarse(SingleRows::Rows a, Sparsity p, const float* weights,
       for (int s = 0; s < width; ++s) {
         float* out = coarse + 9 * static_cast<size_t>(*coarse_slots++);
         const float* in = row + kBlockStride * s;
-        At(out) += At(in) * weights[e];
-        At(out + 4) += At(in + 4) * weights[e];
+        AddFour(LoadFour(in) * weights[e], out);
+        AddFour(LoadFour(in + 4) * weights[e], out + 4);
         out[8] += in[8] * weights[e];
       }
     }
