@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <string>
 
 #include "benchmarks.h"
 #include "cases.h"
@@ -80,21 +81,37 @@ int NumGradients(const GridPlan& plan) {
   return plan.size <= 24 ? 10 : plan.size <= 48 ? 3 : 1;
 }
 
+void Register(const std::string& what, const Case& c) {
+  benchmark::RegisterBenchmark(CaseName(what, c).c_str(),
+                               [c](benchmark::State& state) { Gradient(state, c); })
+      ->Unit(benchmark::kMillisecond)
+      ->MeasureProcessCPUTime()
+      ->Iterations(NumGradients(c.plan));
+}
+
+// A hundred frames of every grid, with the solver that it is for: over a few frames
+// from rest the backward pass has no solution to start its iterations from yet.
+void RegisterHundredFrames(GridPlan plan) {
+  constexpr int kLargestDirect = 48;
+  plan.num_frames = 100;
+  for (const char* solver : {"cholesky", "cg"}) {
+    const bool is_direct = std::string(solver) == "cholesky";
+    if (plan.size > (is_direct ? kLargestDirect : 96)) continue;
+    Register("gradient_of_100_frames",
+             {ScenePreset::kSide, "side", kMethods[0], plan, solver});
+  }
+}
+
 }  // namespace
 
 void RegisterGradient() {
   for (const GridPlan& plan : kGrids) {
     for (const char* solver : kSolvers) {
       for (IntegrationMethod method : kMethods) {
-        const Case c{ScenePreset::kSide, "side", method, plan, solver};
-        benchmark::RegisterBenchmark(
-            CaseName("gradient", c).c_str(),
-            [c](benchmark::State& state) { Gradient(state, c); })
-            ->Unit(benchmark::kMillisecond)
-            ->MeasureProcessCPUTime()
-            ->Iterations(NumGradients(plan));
+        Register("gradient", {ScenePreset::kSide, "side", method, plan, solver});
       }
     }
+    RegisterHundredFrames(plan);
   }
 }
 

@@ -174,9 +174,9 @@ def growth(results):
           ["scene", "method", "solver", "grid", "ms per frame"] + EXPONENTS, rows)
 
 
-def gradient(results):
+def gradient(results, what="gradient", of=""):
     rows, series = [], Series()
-    for preset, fields, c in select(results, "gradient"):
+    for preset, fields, c in select(results, what):
         cells = [preset, str(fields["method"]), fields["solver"], grid_name(fields)]
         if c.get("error_occurred"):
             rows.append(cells + failure(c, 9))
@@ -188,10 +188,14 @@ def gradient(results):
             number(c["peak_mib"])] +
             series.exponents((preset, fields["method"], fields["solver"]),
                              "ms_per_frame", c))
-    table("Gradient (adjoint, all stiffnesses), per frame",
+    table(f"Gradient{of} (adjoint, all stiffnesses), per frame",
           ["scene", "method", "solver", "grid", "rollout alone, ms",
            "recorded rollout, ms", "backward step, ms", "gradient, ms",
            "× rollout alone", "first gradient, ms", "memory, MiB"] + EXPONENTS, rows)
+
+
+def gradient_of_100_frames(results):
+    gradient(results, "gradient_of_100_frames", " of 100 frames")
 
 
 def memory(results):
@@ -284,7 +288,8 @@ def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     results = read(sys.argv[1:])
-    for write in (machine, forward, growth, gradient, memory, jacobian, lm_iteration,
+    for write in (machine, forward, growth, gradient, gradient_of_100_frames,
+                  memory, jacobian, lm_iteration,
                   inverse_dynamics, estimation):
         write(results)
 
