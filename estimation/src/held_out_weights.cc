@@ -10,6 +10,7 @@
 
 #include "dpe/estimation/checkpoint.h"
 #include "dpe/estimation/trajectory_evaluator.h"
+#include "fit_problem.h"
 #include "frame_interpolation.h"
 
 namespace dpe {
@@ -94,9 +95,6 @@ class WeightSearch {
 
  private:
   void MakeHeldOut() {
-    PositionCostOptions cost_options;
-    cost_options.loss = options_.loss;
-    cost_options.loss_scale = options_.loss_scale;
     bool is_anything_observed = false;
     std::vector<TrajectorySegment> segments(whole_.size());
     for (size_t c = 0; c < whole_.size(); ++c) {
@@ -105,7 +103,7 @@ class WeightSearch {
       segments[c].costs = MakePositionCosts(
           capture.blank,
           FromFrame(num_training_[c], capture.num_frames, capture.observations),
-          capture.num_frames, cost_options);
+          capture.num_frames, CostOptionsOf(options_));
       is_anything_observed |= !segments[c].costs.empty();
     }
     if (!is_anything_observed) {
