@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "dpe/engine/simulator.h"
+#include "fit_problem.h"
 #include "fit_setup.h"
 #include "frame_interpolation.h"
 
@@ -30,10 +31,8 @@ Observations HoldOut(Observations observations, int num_fitted) {
 
 }  // namespace
 
-Forecaster::Forecaster(const EstimatorOptions& options) {
-  cost_options_.loss = options.loss;
-  cost_options_.loss_scale = options.loss_scale;
-}
+Forecaster::Forecaster(const EstimatorOptions& options)
+    : cost_options_(CostOptionsOf(options)) {}
 
 void Forecaster::Add(const Scene& scene, const Observations& observations,
                      int num_fitted, int num_frames) {
