@@ -11,6 +11,7 @@
 #include "fit_checkpoints.h"
 #include "fit_problem.h"
 #include "fit_setup.h"
+#include "fit_summary.h"
 #include "fit_uncertainty.h"
 #include "held_out_weights.h"
 #include "horizon.h"
@@ -46,7 +47,6 @@ class Fit {
     context_.options = &options_;
     context_.stop = &stop_;
     context_.accepted = [this](const OptimizerContext& context, double radius) {
-      if (context.fit == &fit_) last_radius_ = radius;
       SaveCheckpoint(context.fit == &fit_ ? "fit" : "grow", context, radius);
     };
     summary_.num_frames = fit_.num_frames();
@@ -287,7 +287,7 @@ class Fit {
     summary_.termination = result.termination;
     summary_.message = result.message;
     // The optimiser does not tell of its last iteration.
-    if (summary_.usable()) SaveCheckpoint("fit", context_, last_radius_);
+    if (summary_.usable()) SaveCheckpoint("fit", context_, context_.last_radius);
   }
 
   // With a handful of parameters the whole range can be looked at, so that a local
@@ -325,48 +325,19 @@ class Fit {
     summary_.iterations = context_.num_iterations;
     summary_.evaluations += evaluator()->num_rollouts();
     summary_.jacobian_evaluations += evaluator()->num_derivative_passes();
-    SummariseCaptures(has_result);
+    SummariseCaptures(captures_, has_result, &fit_, &summary_);
     summary_.blocks = MakeEstimatedBlocks(problem()->layout(), summary_.parameters);
     if (!checkpoints_.problem().empty()) {
       summary_.notes.push_back(checkpoints_.problem());
     }
     FindUncertainty(has_result);
-    FindSensitivity(has_result);
-    summary_.wall_time_s = stop_.Seconds();
-  }
-
-  // Of every capture; that of the fit is the largest.
-  void FindSensitivity(bool has_result) {
     if (!has_result || stop_.stopped() ||
         options_.uncertainty == UncertaintyMode::kOff) {
       summary_.sensitivity.message = "not asked for, or the fit was stopped";
-      return;
+    } else {
+      FindSensitivity(options_, &stop_, &summary_);
     }
-    SimulatorOptions options;
-    options.num_threads = options_.num_threads;
-    options.memory_limit_bytes = options_.memory_limit_bytes;
-    options.interrupted = [this] { return stop_.Poll(); };
-    for (CaptureSummary& capture : summary_.captures) {
-      capture.sensitivity =
-          ComputeMotionSensitivity(capture.scene, capture.num_frames, options);
-      if (!summary_.sensitivity.ok ||
-          capture.sensitivity.growth > summary_.sensitivity.growth) {
-        summary_.sensitivity = capture.sensitivity;
-      }
-    }
-  }
-
-  void SummariseCaptures(bool has_result) {
-    for (int c = 0; c < static_cast<int>(captures_.size()); ++c) {
-      CaptureSummary capture;
-      capture.scene = *captures_[c].scene;
-      problem()->layout().Insert(summary_.parameters, &capture.scene, c);
-      capture.num_frames = fit_.captures()[c].num_frames;
-      capture.final_rms =
-          has_result ? fit_.best_rms(c) : std::numeric_limits<double>::quiet_NaN();
-      summary_.captures.push_back(std::move(capture));
-    }
-    summary_.scene = summary_.captures[0].scene;
+    summary_.wall_time_s = stop_.Seconds();
   }
 
   void FindUncertainty(bool has_result) {
@@ -392,7 +363,6 @@ class Fit {
   StartingPoint start_;
   EstimatorSummary summary_;
   bool use_lm_ = true;
-  double last_radius_ = 0.0;  // of the fit to all frames
 };
 
 EstimatorSummary EstimateCaptures(const std::vector<CaptureView>& captures,
