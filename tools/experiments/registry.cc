@@ -1,0 +1,16 @@
+// The one place that lists every kind of job and every experiment: a line each.
+#include "experiments/experiment.h"
+
+namespace dpe::experiments {
+
+const std::vector<JobKind>& JobKinds() {
+  static const std::vector<JobKind> kinds = {};
+  return kinds;
+}
+
+const std::vector<Experiment>& Experiments() {
+  static const std::vector<Experiment> experiments = {};
+  return experiments;
+}
+
+}  // namespace dpe::experiments
