@@ -1,10 +1,13 @@
 // The one place that lists every kind of job and every experiment: a line each.
 #include "experiments/experiment.h"
+#include "experiments/selftest.h"
 
 namespace dpe::experiments {
 
 const std::vector<JobKind>& JobKinds() {
-  static const std::vector<JobKind> kinds = {};
+  static const std::vector<JobKind> kinds = {
+      SelfTestKind(),
+  };
   return kinds;
 }
 
