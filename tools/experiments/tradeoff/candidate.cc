@@ -1,5 +1,6 @@
 #include "experiments/tradeoff/candidate.h"
 
+#include <cmath>
 #include <cstdio>
 #include <map>
 
@@ -14,13 +15,15 @@ std::string Short(double value) {
   return buffer;
 }
 
+// Values that differ by rounding count as equal. They must be positive.
 std::vector<int> GroupsOfEqualValues(const Eigen::VectorXd& values) {
-  std::map<double, int> group_of;
-  for (double value : values) group_of.emplace(value, 0);
+  const auto key = [](double value) { return std::llround(1e6 * std::log(value)); };
+  std::map<long long, int> group_of;
+  for (double value : values) group_of.emplace(key(value), 0);
   int next = 0;
   for (auto& [value, group] : group_of) group = next++;
   std::vector<int> groups;
-  for (double value : values) groups.push_back(group_of[value]);
+  for (double value : values) groups.push_back(group_of[key(value)]);
   return groups;
 }
 

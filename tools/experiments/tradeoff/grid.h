@@ -12,9 +12,9 @@ namespace dpe::experiments {
 // Settings of simulations, in full: every integrator with 1, 2, 4, 8, 16 and 32 steps
 // per frame; each that solves linear systems with the direct solver, with the Krylov
 // method to 1e-2, 1e-5 and 1e-8, and with "auto"; each that has Newton iterations, with
-// those to 1e-13 (the default), 1e-6, 1e-4 and 1e-2 of the direct solver, and to 1e-4
-// of the Krylov method; and implicit Euler and TR-BDF2 with 64 steps. The settings of
-// the presets (quality.h) are among them.
+// those to 1e-13 (the default), 1e-6, 1e-4 and 1e-2 of the direct solver, and to 1e-6
+// and 1e-4 of the Krylov method; and implicit Euler and TR-BDF2 with 64 steps. The
+// settings of the presets (quality.h) are among them.
 std::vector<StepSettings> SimulationGrid();
 
 // All jobs: for side, corners and flag, the reference's uncertainty, the simulations,

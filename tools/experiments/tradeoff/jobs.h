@@ -13,7 +13,8 @@ namespace dpe::experiments {
 // @return     stopped (text: why the simulation failed, else empty), steps_per_frame,
 //             rms_H_m and max_H_m for each horizon H, the work per frame (SetWork),
 //             gradient_error, difference_error, frame_s (least processor time per
-//             frame, s), kept_mib (what a rollout keeps for derivatives)
+//             frame, s), kept_mib (what a rollout of kGradientFrames keeps for
+//             derivatives)
 Record RunSimulationJob(const Job& job);
 
 // Fits stiffnesses to the reference motion with a candidate's settings.

@@ -44,9 +44,13 @@ class Functional {
   }
 
   // Empty on failure.
-  Eigen::VectorXd Gradient() {
+  // @param kept_mib  what the rollout keeps, unless null
+  Eigen::VectorXd Gradient(double* kept_mib = nullptr) {
     const Rollout rollout = simulator_.Run(truth_, frames_);
     if (!rollout.status().ok()) return {};
+    if (kept_mib != nullptr) {
+      *kept_mib = static_cast<double>(rollout.kept_bytes()) / (1 << 20);
+    }
     Sensitivity sensitivity(&simulator_, &rollout);
     const Eigen::VectorXd gradient = sensitivity.Gradient({weights_});
     return sensitivity.ok() ? gradient : Eigen::VectorXd();
@@ -97,7 +101,7 @@ void SetWork(const Timings& timings, int frames, Record* row) {
 }
 
 GradientErrors MeasureGradient(const Candidate& candidate, bool with_difference) {
-  GradientErrors errors{kNan, kNan};
+  GradientErrors errors{kNan, kNan, kNan};
   Candidate exact = candidate;
   exact.settings.solver = "cholesky";
   exact.settings.newton_tolerance = SimulatorOptions().newton_tolerance;
@@ -105,7 +109,7 @@ GradientErrors MeasureGradient(const Candidate& candidate, bool with_difference)
   Functional functional(exact);
   const Eigen::VectorXd gradient = functional.Gradient();
   if (gradient.size() == 0) return errors;
-  const Eigen::VectorXd own = Functional(candidate).Gradient();
+  const Eigen::VectorXd own = Functional(candidate).Gradient(&errors.kept_mib);
   if (own.size() > 0) errors.solve = (own - gradient).norm() / gradient.norm();
   if (with_difference) {
     const Eigen::VectorXd direction =

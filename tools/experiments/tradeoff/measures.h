@@ -35,6 +35,7 @@ struct GradientErrors {
   // | g* . d - difference quotient | / | difference quotient | along a random
   // direction d: that g* is the derivative of the map. NaN unless asked for.
   double difference = 0.0;
+  double kept_mib = 0.0;  // what the candidate's rollout keeps for its derivatives
 };
 constexpr int kGradientFrames = 21;
 // NaN where a rollout or a pass fails.
