@@ -24,23 +24,23 @@ const std::array<QualityPreset, 4>& QualityPresets() {
       {Quality::kDraft,
        "draft",
        "to see what a scene does",
-       {kSymplectic, 8, "auto", 1e-5, 1e-13},
-       {kTr, 1, "auto", 1e-5, 1e-13}},
+       {kSymplectic, 8},
+       {kTr, 1}},
       {Quality::kStandard,
        "standard",
-       "errors below what a camera sees",
-       {kTr, 2, "auto", 1e-5, 1e-4},
-       {kTr, 2, "auto", 1e-5, 1e-13}},
+       "errors that cannot be seen",
+       {kTr, 2, "cg", 1e-5, 1e-4},
+       {kTr, 2}},
       {Quality::kAccurate,
        "accurate",
-       "to compare with measurements of a millimetre and less",
-       {kTr, 8, "auto", 1e-8, 1e-6},
-       {kTr, 4, "auto", 1e-8, 1e-13}},
+       "to compare with measurements of a millimetre",
+       {kTr, 8, "cg", 1e-5, 1e-6},
+       {kTr, 4}},
       {Quality::kReference,
        "reference",
        "to judge other settings by",
-       {kTr, 32, "auto", 1e-12, 1e-13},
-       {kTr, 16, "auto", 1e-12, 1e-13}},
+       {kTr, 32, "cg", 1e-5, 1e-6},
+       {kTr, 16}},
   }};
   return presets;
 }
@@ -62,11 +62,18 @@ void ApplyStepSettings(const StepSettings& settings, Scene* scene,
                        SimulatorOptions* options) {
   scene->integration_method = settings.method;
   // A frame of 20 ms that was rounded must not take a step more.
-  const double steps = settings.steps * scene->delta / kPresetFrame;
-  scene->steps_per_frame = std::max(1, static_cast<int>(std::ceil(steps - 1e-6)));
+  const double steps = std::ceil(settings.steps * scene->delta / kPresetFrame - 1e-6);
+  constexpr double kMostSteps = 1e9;  // no number of steps that a whole number is not
+  scene->steps_per_frame = static_cast<int>(std::clamp(steps, 1.0, kMostSteps));
   scene->solver = settings.solver;
   scene->tolerance = settings.tolerance;
   if (options != nullptr) options->newton_tolerance = settings.newton_tolerance;
+}
+
+std::string QualityText(const std::string& name, const Scene& scene) {
+  return "Quality " + name + ": " + IntegrationMethodName(scene.integration_method) +
+         ", " + std::to_string(scene.steps_per_frame) +
+         (scene.steps_per_frame == 1 ? " step" : " steps") + " per frame";
 }
 
 StepSettings SimulationSettings(Quality quality, const Scene& scene) {

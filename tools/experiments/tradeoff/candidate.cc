@@ -6,7 +6,7 @@
 
 #include "dpe/engine/cloth_builder.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 namespace {
 
 std::string Short(double value) {
@@ -101,4 +101,4 @@ SimulatorOptions CandidateOptions(const Candidate& candidate) {
   return options;
 }
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff

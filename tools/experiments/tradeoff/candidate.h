@@ -11,7 +11,7 @@
 #include "dpe/engine/simulator.h"
 #include "experiments/record.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 
 struct Candidate {
   std::string scene = "side";
@@ -44,6 +44,6 @@ SimulatorOptions CandidateOptions(const Candidate& candidate);
 bool UsesNewton(IntegrationMethod method);
 bool UsesLinearSolver(IntegrationMethod method);
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff
 
 #endif  // DPE_TOOLS_EXPERIMENTS_TRADEOFF_CANDIDATE_H_

@@ -10,7 +10,7 @@
 #include "experiments/tradeoff/measures.h"
 #include "experiments/tradeoff/reference.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 namespace {
 
 template <typename Value>
@@ -98,12 +98,12 @@ Record RunFitJob(const Job& job) {
   row.Set("iterations", summary.iterations);
   row.Set("rollouts", summary.evaluations);
   row.Set("passes", summary.jacobian_evaluations);
-  row.Set("steps", static_cast<double>(summary.evaluations) * (candidate.frames - 1) *
-                       scene.steps_per_frame);
+  row.Set("total_steps", static_cast<double>(summary.evaluations) *
+                             (candidate.frames - 1) * scene.steps_per_frame);
   row.Set("solver_used", summary.solver);
   row.Set("init_used", summary.init);
   row.Set("fit_s", seconds);
   return row;
 }
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff

@@ -7,7 +7,7 @@
 #include "experiments/tradeoff/candidate.h"
 #include "experiments/tradeoff/rows.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 namespace {
 
 constexpr char kKind[] = "tradeoff_fit";
@@ -67,7 +67,7 @@ std::vector<std::string> Cells(const Row& row) {
     cells.push_back(FormatNumber(Measured(row, key), 3));
   }
   cells.push_back(FormatNumber(1e3 * Measured(row, "residual_rms_m"), 3));
-  for (const char* key : {"iterations", "rollouts", "passes", "steps", "fit_s"}) {
+  for (const char* key : {"iterations", "rollouts", "passes", "total_steps", "fit_s"}) {
     cells.push_back(FormatNumber(Measured(row, key), 3));
   }
   cells.push_back(WhyNot(row));
@@ -162,4 +162,4 @@ void AddFitResults(const std::vector<Row>& rows, Results* results) {
   }
 }
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 namespace {
 
 bool IsKnown(const CostAndError& point) {
@@ -48,4 +48,4 @@ size_t CheapestWithin(const std::vector<CostAndError>& points, double error) {
   return cheapest;
 }
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff

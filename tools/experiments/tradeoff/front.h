@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 
 struct CostAndError {
   double cost = 0.0;
@@ -23,6 +23,6 @@ std::vector<size_t> ParetoFront(const std::vector<CostAndError>& points);
 // The cheapest point with an error of at most `error`, or points.size().
 size_t CheapestWithin(const std::vector<CostAndError>& points, double error);
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff
 
 #endif  // DPE_TOOLS_EXPERIMENTS_TRADEOFF_FRONT_H_

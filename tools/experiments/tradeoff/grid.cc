@@ -5,7 +5,7 @@
 
 #include "experiments/tradeoff/candidate.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 namespace {
 
 constexpr int kSteps[] = {1, 2, 4, 8, 16, 32};
@@ -198,4 +198,4 @@ std::vector<Job> TradeoffJobs() {
   return jobs;
 }
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff

@@ -7,7 +7,7 @@
 #include "dpe/engine/quality.h"
 #include "experiments/experiment.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 
 // Settings of simulations, in full: every integrator with 1, 2, 4, 8, 16 and 32 steps
 // per frame; each that solves linear systems with the direct solver, with the Krylov
@@ -25,6 +25,6 @@ std::vector<StepSettings> SimulationGrid();
 // limit.
 std::vector<Job> TradeoffJobs();
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff
 
 #endif  // DPE_TOOLS_EXPERIMENTS_TRADEOFF_GRID_H_

@@ -4,7 +4,7 @@
 
 #include "experiments/experiment.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 
 // Simulates a scene with a candidate's settings (candidate.h).
 //
@@ -28,10 +28,11 @@ Record RunSimulationJob(const Job& job);
 //             shooting), init (auto, uniform), max_iterations, memory_limit_mib
 // @return     stopped (text: why the fit is not usable, else empty), parameters,
 //             bias_percent (mean of |p - p_true| / |p_true|), worst_percent,
-//             residual_rms_m, iterations, rollouts, passes, steps (of all rollouts),
+//             residual_rms_m, iterations, rollouts, passes, total_steps (of all
+//             rollouts),
 //             fit_s (processor time), solver_used
 Record RunFitJob(const Job& job);
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff
 
 #endif  // DPE_TOOLS_EXPERIMENTS_TRADEOFF_JOBS_H_

@@ -11,7 +11,7 @@
 #include "dpe/engine/sensitivity.h"
 #include "dpe/engine/simulator.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -124,4 +124,4 @@ GradientErrors MeasureGradient(const Candidate& candidate, bool with_difference)
   return errors;
 }
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff

@@ -9,7 +9,7 @@
 #include "experiments/record.h"
 #include "experiments/tradeoff/candidate.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 
 // Processor time of this process so far, s.
 double CpuSeconds();
@@ -41,6 +41,6 @@ constexpr int kGradientFrames = 21;
 // NaN where a rollout or a pass fails.
 GradientErrors MeasureGradient(const Candidate& candidate, bool with_difference);
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff
 
 #endif  // DPE_TOOLS_EXPERIMENTS_TRADEOFF_MEASURES_H_

@@ -14,7 +14,7 @@
 #include "dpe/engine/simulator.h"
 #include "experiments/tradeoff/candidate.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 namespace {
 
 constexpr int kCoarse = 64;  // steps per frame
@@ -141,4 +141,4 @@ Record RunReferenceJob(const Job& job) {
   return row;
 }
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff

@@ -19,7 +19,7 @@
 #include "dpe/engine/scene.h"
 #include "experiments/experiment.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 
 struct Reference {
   Eigen::MatrixXd positions;    // 3N x frames, m
@@ -49,6 +49,6 @@ constexpr int kHorizons[] = {20, 50, 100};
 // The kind of job that reports a reference's uncertainty.
 Record RunReferenceJob(const Job& job);
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff
 
 #endif  // DPE_TOOLS_EXPERIMENTS_TRADEOFF_REFERENCE_H_

@@ -3,7 +3,7 @@
 #include "experiments/tradeoff/fit_results.h"
 #include "experiments/tradeoff/simulation_results.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 
 Results TradeoffResults(const std::vector<Row>& rows) {
   Results results;
@@ -12,4 +12,4 @@ Results TradeoffResults(const std::vector<Row>& rows) {
   return results;
 }
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff

@@ -6,10 +6,10 @@
 
 #include "experiments/experiment.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 
 Results TradeoffResults(const std::vector<Row>& rows);
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff
 
 #endif  // DPE_TOOLS_EXPERIMENTS_TRADEOFF_RESULTS_H_

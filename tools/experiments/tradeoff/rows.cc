@@ -4,7 +4,7 @@
 
 #include "experiments/tradeoff/candidate.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 namespace {
 
 constexpr int kNumMethods = 5;
@@ -86,4 +86,4 @@ std::vector<Series> TradeoffSeries(const std::vector<Row>& rows,
   return all;
 }
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff

@@ -9,7 +9,7 @@
 #include "experiments/experiment.h"
 #include "experiments/tradeoff/front.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 
 // The scenes of the experiment.
 const std::vector<std::string>& TradeoffScenes();
@@ -38,6 +38,6 @@ std::vector<Series> TradeoffSeries(const std::vector<Row>& rows,
                                    double scale_x, double scale_y,
                                    const std::function<std::string(const Row&)>& name);
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff
 
 #endif  // DPE_TOOLS_EXPERIMENTS_TRADEOFF_ROWS_H_

@@ -9,7 +9,7 @@
 #include "experiments/tradeoff/measures.h"
 #include "experiments/tradeoff/reference.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 namespace {
 
 constexpr int kRepeats = 1;  // beside the first rollout
@@ -60,4 +60,4 @@ Record RunSimulationJob(const Job& job) {
   return row;
 }
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff

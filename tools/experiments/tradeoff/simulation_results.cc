@@ -9,7 +9,7 @@
 #include "experiments/tradeoff/candidate.h"
 #include "experiments/tradeoff/rows.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 namespace {
 
 constexpr char kKind[] = "tradeoff_simulation";
@@ -281,4 +281,4 @@ void AddSimulationResults(const std::vector<Row>& rows, Results* results) {
   }
 }
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff

@@ -6,10 +6,10 @@
 
 #include "experiments/experiment.h"
 
-namespace dpe::experiments {
+namespace dpe::experiments::tradeoff {
 
 void AddSimulationResults(const std::vector<Row>& rows, Results* results);
 
-}  // namespace dpe::experiments
+}  // namespace dpe::experiments::tradeoff
 
 #endif  // DPE_TOOLS_EXPERIMENTS_TRADEOFF_SIMULATION_RESULTS_H_

@@ -42,7 +42,8 @@ struct QualityPreset {
 const std::array<QualityPreset, 4>& QualityPresets();
 const QualityPreset& PresetOf(Quality quality);
 
-// @throws SceneError naming what is accepted
+// draft, standard, accurate or reference.
+// @throws SceneError naming these
 Quality QualityFromName(const std::string& name);
 
 // Lets the settings take the place of the scene's and, unless null, of the options'.
@@ -55,6 +56,10 @@ void ApplyStepSettings(const StepSettings& settings, Scene* scene,
 // the next preset, which is stable at any step, takes over.
 constexpr int kMaxStretch = 4;
 StepSettings SimulationSettings(Quality quality, const Scene& scene);
+
+// "Quality draft: symplectic_euler, 8 steps per frame", of a scene that has its
+// settings.
+std::string QualityText(const std::string& name, const Scene& scene);
 
 }  // namespace dpe
 
