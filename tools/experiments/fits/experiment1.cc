@@ -138,23 +138,32 @@ Table FitTable(const std::vector<Row>& rows) {
   return table;
 }
 
-// "side nL", with the frames where a scene has two lengths.
-std::string Name(const std::string& preset, int frames, const std::string& settings) {
-  return preset + (preset == "flag" ? " " + std::to_string(frames) : "") + " " +
-         settings;
-}
-
-Series FitSeries(const std::vector<Row>& rows, const std::string& start,
+// Those of one start whose parameterization can, or cannot, represent the truth.
+Series FitSeries(const std::vector<Row>& rows, bool is_default, bool has_floor,
                  const std::string& label) {
   Series series;
   series.label = label;
   series.line = false;
   for (const Row& row : rows) {
-    if (row.Text("kind", "") != "estimate" || row.Text("init", "") != start) continue;
-    const std::string settings = row.Text("settings", "");
-    if (settings == "GG" || settings == "LL") continue;
+    if (row.Text("kind", "") != "estimate" ||
+        HasFloor(row.Text("settings", "")) != has_floor ||
+        (row.Text("init", "") == "auto") != is_default) {
+      continue;
+    }
     series.x.push_back(NumberOf(&row, "cpu_s"));
     series.y.push_back(NumberOf(&row, "rms_m"));
+  }
+  return series;
+}
+
+Series BeforeSeries(bool has_floor, const std::string& label) {
+  Series series;
+  series.label = label;
+  series.line = false;
+  for (const PredecessorFit& fit : PredecessorFits()) {
+    if (HasFloor(fit.settings) != has_floor) continue;
+    series.x.push_back(fit.cpu);
+    series.y.push_back(fit.rms);
   }
   return series;
 }
@@ -162,22 +171,16 @@ Series FitSeries(const std::vector<Row>& rows, const std::string& start,
 Plot ErrorAgainstTime(const std::vector<Row>& rows) {
   Plot plot;
   plot.name = "experiment1";
-  plot.title = "What fits reach, and in what time (Gn, Ln, nG, nL)";
+  plot.title = "What fits reach, and in what time";
   plot.x_label = "processor time of a fit (s)";
   plot.y_label = "RMS position error (m)";
   plot.log_x = plot.log_y = true;
-  plot.series.push_back(FitSeries(rows, "auto", "dpe, default start"));
-  plot.series.push_back(FitSeries(rows, "uniform:10", "dpe, all at 10"));
-  plot.series.push_back(FitSeries(rows, "uniform:0.0001", "dpe, all at 0.0001"));
-  Series before;
-  before.label = "predecessor";
-  before.line = false;
-  for (const PredecessorFit& fit : PredecessorFits()) {
-    before.x.push_back(fit.cpu);
-    before.y.push_back(fit.rms);
-    before.annotations.push_back(Name(fit.scene, fit.frames, fit.settings));
-  }
-  plot.series.push_back(before);
+  plot.series = {FitSeries(rows, true, false, "dpe, many values"),
+                 FitSeries(rows, true, true, "dpe, one value"),
+                 FitSeries(rows, false, false, "dpe, uniform start, many"),
+                 FitSeries(rows, false, true, "dpe, uniform start, one"),
+                 BeforeSeries(false, "predecessor, many values"),
+                 BeforeSeries(true, "predecessor, one value")};
   return plot;
 }
 

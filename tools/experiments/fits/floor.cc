@@ -16,7 +16,7 @@ namespace {
 
 // Decades around the mean of what the scene says, and grid points in each.
 constexpr double kDecadesOfOne = 4.0, kDecadesOfTwo = 2.0;
-constexpr int kPerDecadeOfOne = 25, kPerDecadeOfTwo = 6;
+constexpr int kPerDecadeOfOne = 50, kPerDecadeOfTwo = 6;
 constexpr int kMaxMinima = 4;
 constexpr double kLogTolerance = 1e-9;
 

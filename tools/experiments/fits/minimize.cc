@@ -180,7 +180,8 @@ Minimum GoldenSection(const Objective& objective, double low, double high,
 
 Minimum NelderMead(const Objective& objective, const Point& start, double step,
                    double tolerance) {
-  constexpr int kMaxSteps = 1000;
+  // Smooth minima take about 60; one that takes more is not smooth.
+  constexpr int kMaxSteps = 150;
   Minimum best = {start, 0.0};
   for (int run = 0; run < 2; ++run) {
     Simplex simplex(objective, best.at, step);
