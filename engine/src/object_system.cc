@@ -79,6 +79,7 @@ void ObjectSystem::AddForceTerms(const Scene& scene, const ClothObject& cloth) {
     add(DragTerm(DragLaw(cloth, scene.aerodynamics, &parameters_)));
   }
   for (const Collider& collider : scene.colliders) {
+    if (collider.stiffness == 0.0) continue;
     add(ColliderTerm(ColliderKernel(cloth, collider)));
   }
 }
