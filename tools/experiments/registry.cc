@@ -4,12 +4,15 @@
 #include "experiments/fits/experiment1.h"
 #include "experiments/fits/experiment2.h"
 #include "experiments/fits/floor.h"
+#include "experiments/requirements/cost_job.h"
+#include "experiments/requirements/features.h"
 #include "experiments/selftest.h"
 
 namespace dpe::experiments {
 
 const std::vector<JobKind>& JobKinds() {
   static const std::vector<JobKind> kinds = {
+      CostJobKind(),
       SelfTestKind(),
       EstimateKind(),
       FloorKind(),
@@ -21,6 +24,7 @@ const std::vector<Experiment>& Experiments() {
   static const std::vector<Experiment> experiments = {
       Experiment1(),
       Experiment2(),
+      OnlyWhatItRequires(),
   };
   return experiments;
 }
