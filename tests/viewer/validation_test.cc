@@ -67,6 +67,22 @@ TEST(ValidationTest, AnErrorInCommandsIsHeard) {
   EXPECT_THAT(options.log->messages(), Contains(HasSubstr("VUID-vkCmdCopyBuffer")));
 }
 
+TEST(ValidationTest, AMissingBarrierIsHeard) {
+  const DeviceOptions options = Validated();
+  const vk::Instance instance(options, {});
+  const vk::Device device(instance.get(), VK_NULL_HANDLE, "");
+  const VkBufferUsageFlags both =
+      VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  const vk::Buffer a(device, 64, both, vk::kShared);
+  const vk::Buffer b(device, 64, both, vk::kShared);
+  device.Run([&](VkCommandBuffer commands) {
+    const VkBufferCopy region{0, 0, 64};
+    vkCmdCopyBuffer(commands, a.get(), b.get(), 1, &region);
+    vkCmdCopyBuffer(commands, b.get(), a.get(), 1, &region);
+  });
+  EXPECT_THAT(options.log->messages(), Contains(HasSubstr("SYNC-HAZARD")));
+}
+
 TEST(ValidationTest, WithoutItNothingIsCollected) {
   DeviceOptions options = Validated();
   options.validation = false;
