@@ -41,8 +41,8 @@ class WindowRenderer {
   int samples() const;
   // How often the device was made anew.
   int devices_lost() const;
-  // The next Draw finds the device lost: for tests.
-  void LoseDevice();
+  // For tests: the next attempts to draw find the device lost.
+  void LoseDevice(int times = 1);
 
  private:
   struct State;
