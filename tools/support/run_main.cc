@@ -91,7 +91,9 @@ int RunMain(int argc, char** argv, const Program& program,
     return 0;
   }
   gflags::HandleCommandLineHelpFlags();  // --helpfull, --version, ...: exits if given
-  if (argc > 1) {
+  if (argc == 2 && program.argument != nullptr) {
+    *program.argument = argv[1];
+  } else if (argc > 1) {
     return PrintError(program, "\"" + std::string(argv[1]) +
                                    "\" is not a flag; every argument is of the form "
                                    "--flag=value (see --help)");
