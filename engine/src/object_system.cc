@@ -209,6 +209,14 @@ void ObjectSystem::VisitMass(const double* dv, ParameterSink* sink) const {
   }
 }
 
+std::string ObjectSystem::UndefinedReason(const double* x) const {
+  for (const auto& term : terms_) {
+    const std::string reason = term->UndefinedReason(x);
+    if (!reason.empty()) return reason;
+  }
+  return {};
+}
+
 bool ObjectSystem::IsSymmetric() const {
   return std::all_of(terms_.begin(), terms_.end(),
                      [](const auto& term) { return term->IsSymmetric(); });
