@@ -20,16 +20,19 @@ fail() {
 
 apt_packages="g++ cmake make git pkg-config ccache libceres-dev libsuitesparse-dev
   libeigen3-dev libgoogle-glog-dev libgflags-dev nlohmann-json3-dev
-  libopenblas-pthread-dev libtinyobjloader-dev"
-apt_test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format valgrind"
+  libopenblas-pthread-dev libtinyobjloader-dev python3-dev python3-numpy pybind11-dev"
+apt_test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format valgrind
+  python3-pytest python3-scipy python3-matplotlib python3-pip python3-setuptools
+  python3-wheel"
 dnf_packages="gcc-c++ cmake make git pkgconf-pkg-config ccache ceres-solver-devel
   suitesparse-devel eigen3-devel glog-devel gflags-devel json-devel openblas-devel
-  tinyobjloader-devel"
+  tinyobjloader-devel python3-devel python3-numpy pybind11-devel"
 dnf_test_packages="gtest-devel gmock-devel google-benchmark-devel clang-tools-extra
-  valgrind"
+  valgrind python3-pytest python3-scipy python3-matplotlib python3-pip
+  python3-setuptools python3-wheel"
 brew_packages="cmake git pkg-config ccache ceres-solver suite-sparse eigen glog gflags
-  nlohmann-json openblas tinyobjloader"
-brew_test_packages="googletest google-benchmark clang-format"
+  nlohmann-json openblas tinyobjloader numpy pybind11"
+brew_test_packages="googletest google-benchmark clang-format scipy"
 
 # as_root COMMAND...: directly where we are root, through sudo otherwise.
 as_root() {
