@@ -7,15 +7,14 @@
 #include "experiments/requirements/cost_job.h"
 #include "experiments/requirements/features.h"
 #include "experiments/selftest.h"
+#include "experiments/tradeoff/tradeoff.h"
 
 namespace dpe::experiments {
 
 const std::vector<JobKind>& JobKinds() {
   static const std::vector<JobKind> kinds = {
-      CostJobKind(),
-      SelfTestKind(),
-      EstimateKind(),
-      FloorKind(),
+      CostJobKind(),           SelfTestKind(),           EstimateKind(),    FloorKind(),
+      TradeoffReferenceKind(), TradeoffSimulationKind(), TradeoffFitKind(),
   };
   return kinds;
 }
@@ -25,6 +24,7 @@ const std::vector<Experiment>& Experiments() {
       Experiment1(),
       Experiment2(),
       OnlyWhatItRequires(),
+      TradeoffExperiment(),
   };
   return experiments;
 }
