@@ -3,18 +3,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
+#include <exception>
 #include <iostream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "dpe/engine/scene.h"
 #include "experiments/campaign.h"
 #include "experiments/campaign_run.h"
 #include "experiments/executors/internal.h"
-#include "experiments/executors/progress.h"
 #include "support/flag_ranges.h"
 #include "support/flag_values.h"
 #include "support/interrupt.h"
@@ -24,9 +21,22 @@ DEFINE_string(output_dir, "",
               "Folder for rows and results; default results/NAME. A campaign that was "
               "interrupted goes on where it stopped.");
 DEFINE_bool(list, false, "List the experiments and the kinds of jobs.");
-DEFINE_string(executor, "local", "local: processes on this machine.");
-DEFINE_int32(jobs, 0,
-             "Most jobs that run at once; 0: as many as there are processors.");
+DEFINE_string(executor, "local",
+              "local: processes on this machine; slurm: a job array on a Slurm cluster "
+              "that shares the output folder and this program with this machine.");
+DEFINE_int32(
+    retries, 2,
+    "With slurm: how often jobs that ended without a row are submitted again.");
+DEFINE_string(partition, "", "With slurm: the partition to submit to.");
+DEFINE_string(slurm_options, "",
+              "With slurm: more options for sbatch, separated by spaces: "
+              "\"--time=1:00:00 --mem=2G\".");
+DEFINE_double(poll_interval, 2.0,
+              "With slurm: seconds between two looks at the queue.");
+DEFINE_int32(
+    jobs, 0,
+    "Most jobs that run at once; 0: as many as there are processors, or as Slurm "
+    "decides.");
 DEFINE_double(job_timeout, 0.0, "Seconds after which a job is killed; 0: never.");
 DEFINE_string(filter, "",
               "Run only the jobs whose id matches this regular expression (anywhere in "
@@ -64,6 +74,14 @@ CampaignOptions OptionsFromFlags() {
   options.timeout_s = FLAGS_job_timeout;
   options.filter = FLAGS_filter;
   options.retry_failed = FLAGS_retry_failed;
+  RequireAtLeast("retries", FLAGS_retries, 0);
+  RequireAtLeast("poll_interval", FLAGS_poll_interval, 0.1);
+  options.slurm.max_retries = FLAGS_retries;
+  options.slurm.partition = FLAGS_partition;
+  for (const std::string& option : Split(FLAGS_slurm_options, ' ')) {
+    if (!option.empty()) options.slurm.sbatch_options.push_back(option);
+  }
+  options.slurm.poll_interval_s = FLAGS_poll_interval;
   return options;
 }
 
@@ -115,7 +133,12 @@ int Main() {
 
 int main(int argc, char** argv) {
   if (dpe::experiments::IsInternalCommand(argc, argv)) {
-    return dpe::experiments::RunInternalCommand(argc, argv);
+    try {
+      return dpe::experiments::RunInternalCommand(argv);
+    } catch (const std::exception& error) {
+      std::cerr << "run_experiments: error: " << error.what() << std::endl;
+      return 1;
+    }
   }
   const dpe::tools::Program program = {
       "run_experiments",

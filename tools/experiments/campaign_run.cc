@@ -10,6 +10,7 @@
 #include "dpe/engine/scene.h"
 #include "experiments/campaign.h"
 #include "experiments/executors/executor.h"
+#include "experiments/executors/internal.h"
 #include "experiments/executors/progress.h"
 #include "experiments/folder_lock.h"
 #include "experiments/machine.h"
@@ -91,23 +92,16 @@ int NumAtOnce(const CampaignOptions& options) {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-std::string ProgramPath() {
-  std::error_code error;
-  const fs::path path = fs::read_symlink("/proc/self/exe", error);
-  if (error)
-    throw SceneError("cannot find out which program this is: " + error.message());
-  return path.string();
-}
-
 bool Execute(const CampaignOptions& options, const Campaign& campaign,
              const std::vector<Job>& pending, const RowStore& store,
              const ExecutorCallbacks& callbacks) {
-  if (options.executor != "local") {
-    throw SceneError("--executor: \"" + options.executor +
-                     "\" is not accepted; expected local");
-  }
   const WorkerSettings settings = {ProgramPath(), campaign.working_dir,
                                    options.timeout_s};
+  if (options.executor == "slurm") {
+    SlurmOptions slurm = options.slurm;
+    slurm.max_running = options.num_at_once;
+    return RunOnSlurm(pending, settings, slurm, store, callbacks);
+  }
   return RunLocally(pending, settings, NumAtOnce(options), store, callbacks);
 }
 
@@ -119,7 +113,7 @@ void WriteResultFiles(const CampaignOptions& options, const Campaign& campaign,
   context.title = experiment != nullptr ? experiment->title : stem;
   context.command = "run_experiments " + options.name;
   context.commit = ProgramCommit(ProgramPath());
-  context.num_at_once = NumAtOnce(options);
+  context.num_at_once = options.executor == "local" ? NumAtOnce(options) : 0;
   context.num_jobs = campaign.jobs.size();
   std::vector<Row> rows;
   for (const Job& job : campaign.jobs) {
@@ -145,6 +139,10 @@ void WriteResultFiles(const CampaignOptions& options, const Campaign& campaign,
 
 CampaignOutcome RunCampaign(const CampaignOptions& options,
                             const CampaignCallbacks& callbacks) {
+  if (options.executor != "local" && options.executor != "slurm") {
+    throw SceneError("--executor: \"" + options.executor +
+                     "\" is not accepted; expected local or slurm");
+  }
   const Experiment* experiment = FindExperiment(options.name);
   const Campaign campaign = CampaignOf(options.name, experiment);
   const std::vector<Job> selected = Selected(campaign.jobs, options.filter);
@@ -154,6 +152,7 @@ CampaignOutcome RunCampaign(const CampaignOptions& options,
   const RowStore store(outcome.output_dir);
   WriteJobs(store.dir(), campaign.jobs);
   const std::vector<Job> pending = WithoutRow(selected, store, options.retry_failed);
+  for (const Job& job : pending) store.Remove(job);
   outcome.num_jobs = static_cast<int>(selected.size());
   outcome.num_found = static_cast<int>(selected.size() - pending.size());
   Progress progress(outcome.num_jobs, outcome.num_found);

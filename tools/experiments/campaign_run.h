@@ -7,16 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "experiments/executors/slurm.h"
+
 namespace dpe::experiments {
 
 struct CampaignOptions {
-  std::string name;        // of an experiment, or a file of jobs
-  std::string output_dir;  // empty: results/NAME
-  std::string executor = "local";
-  int num_at_once = 0;     // 0: as many as there are processors
+  std::string name;                // of an experiment, or a file of jobs
+  std::string output_dir;          // empty: results/NAME
+  std::string executor = "local";  // or "slurm"
+  int num_at_once = 0;     // 0: as many as there are processors; or as Slurm decides
   double timeout_s = 0.0;  // of a job; 0: none
   std::string filter;      // regular expression of ids; empty: all
   bool retry_failed = false;
+  SlurmOptions slurm;  // max_running is num_at_once
 };
 
 struct CampaignCallbacks {

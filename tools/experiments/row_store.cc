@@ -69,6 +69,11 @@ void RowStore::Write(const StoredRow& row) const {
           "\n");
 }
 
+void RowStore::Remove(const Job& job) const {
+  std::error_code ignored;
+  fs::remove(RowPath(JobId(job)), ignored);
+}
+
 std::string RowStore::RowPath(const std::string& id) const {
   return dir_ + "/rows/" + id + ".json";
 }

@@ -33,6 +33,9 @@ class RowStore {
   // @throws SceneError if it cannot be written
   void Write(const StoredRow& row) const;
 
+  // Nothing if there is none.
+  void Remove(const Job& job) const;
+
   const std::string& dir() const { return dir_; }
   std::string LogPath(const std::string& id) const;
 

@@ -35,11 +35,10 @@ bool IsDrawn(double value, bool log) {
   return std::isfinite(value) && (!log || value > 0.0);
 }
 
-std::string Data(const Plot& plot, const Series& series, const std::string& name) {
+// Lines "x y text"; empty if no point can be drawn.
+std::string Points(const Plot& plot, const Series& series) {
   std::ostringstream data;
   data.precision(10);
-  data << name << " << EOD\n";
-  bool has_any = false;
   for (size_t i = 0; i < series.x.size() && i < series.y.size(); ++i) {
     if (!IsDrawn(series.x[i], plot.log_x) || !IsDrawn(series.y[i], plot.log_y)) {
       continue;
@@ -47,11 +46,7 @@ std::string Data(const Plot& plot, const Series& series, const std::string& name
     const bool has_text = i < series.annotations.size();
     data << series.x[i] << ' ' << series.y[i] << ' '
          << Quoted(has_text ? series.annotations[i] : "") << '\n';
-    has_any = true;
   }
-  // gnuplot refuses an empty block; a point that is not a number is not drawn.
-  if (!has_any) data << "NaN NaN \"\"\n";
-  data << "EOD\n";
   return data.str();
 }
 
@@ -95,27 +90,32 @@ std::string GnuplotScript(const Plot& plot, const std::string& svg_path) {
          << "set grid lc rgb \"#dddddd\" lt 1\n"
          << "set key outside right top Left reverse samplen 2 spacing 1.2\n"
          << "set offsets graph 0.02, graph 0.02, graph 0.02, graph 0.02\n";
+  // What has no point is not in the legend either, but keeps its colour from the
+  // others.
+  std::string commands;
   for (size_t s = 0; s < plot.series.size(); ++s) {
-    script << Data(plot, plot.series[s], "$data" + std::to_string(s));
+    const std::string points = Points(plot, plot.series[s]);
+    if (points.empty()) continue;
+    const std::string name = "$data" + std::to_string(s);
+    script << name << " << EOD\n" << points << "EOD\n";
+    commands += commands.empty() ? "plot " : ", \\\n     ";
+    commands += SeriesCommand(plot.series[s], name, s);
   }
-  script << "plot ";
-  for (size_t s = 0; s < plot.series.size(); ++s) {
-    script << (s > 0 ? ", \\\n     " : "")
-           << SeriesCommand(plot.series[s], "$data" + std::to_string(s), s);
-  }
-  script << "\n";
+  if (commands.empty()) return "";
+  script << commands << "\n";
   return script.str();
 }
 
 std::string DrawPlot(const Plot& plot, const std::string& dir) {
   namespace fs = std::filesystem;
-  if (plot.series.empty()) return plot.name + ": there is nothing to draw";
-  std::error_code error;
-  fs::create_directories(dir + "/plots", error);
   const std::string svg = dir + "/" + plot.name + ".svg";
-  const std::string script = dir + "/plots/" + plot.name + ".gp";
-  WriteFileAtomically(script, GnuplotScript(plot, svg));
+  const std::string text = GnuplotScript(plot, svg);
+  std::error_code error;
   fs::remove(svg, error);
+  if (text.empty()) return plot.name + ".svg: there is nothing to draw yet";
+  fs::create_directories(dir + "/plots", error);
+  const std::string script = dir + "/plots/" + plot.name + ".gp";
+  WriteFileAtomically(script, text);
   const CommandResult result = RunCommand({"gnuplot", script});
   if (result.exit_code == 127) {
     return "gnuplot was not found, so plots are not drawn; once it is installed, run "

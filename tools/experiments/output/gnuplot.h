@@ -9,7 +9,8 @@
 namespace dpe::experiments {
 
 // The script that draws a plot into an SVG file, its data included. What is not finite,
-// and on a logarithmic axis not positive, is left out.
+// and on a logarithmic axis not positive, is left out; series without any point are,
+// too. Empty if nothing is left.
 std::string GnuplotScript(const Plot& plot, const std::string& svg_path);
 
 // Draws DIR/NAME.svg; the script stays beside it in DIR/plots/NAME.gp.

@@ -127,7 +127,7 @@ std::string FormatNumber(double value, int digits) {
   char text[40];
   std::snprintf(text, sizeof(text), "%.*g", digits, value);
   // The shortest text that means the same number, where all digits are asked for.
-  for (int fewer = 1; digits >= 17 && fewer < 17; ++fewer) {
+  for (int fewer = 6; digits >= 17 && fewer < 17; ++fewer) {
     std::snprintf(text, sizeof(text), "%.*g", fewer, value);
     if (std::strtod(text, nullptr) == value) break;
     std::snprintf(text, sizeof(text), "%.*g", digits, value);
