@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dpe/engine/quality.h"
 #include "dpe/estimation/estimation_job.h"
 #include "support/blas_threads.h"
 #include "support/estimator_names.h"
@@ -33,6 +34,14 @@ DEFINE_string(integrator, "tr_bdf2",
               "Integration method of a scene made of the target, by name or number.");
 DEFINE_int32(steps_per_frame, 4,
              "Integration steps in a frame of a scene made of the target.");
+DEFINE_string(
+    quality, "",
+    "Time stepping instead of the scene's: draft, standard, accurate or reference. "
+    "docs/quality.md says what they cost and how far parameters are off that are "
+    "fitted to a real motion with them. Without --target the motion that is to be "
+    "recovered is made with it, too. --integrator and --steps_per_frame, of a scene "
+    "made of the target, win where they are given. Without it the scene's own is used, "
+    "which is what reproduces a motion that was made with the scene as it is.");
 DEFINE_string(
     target, "",
     "What was observed: CSV (frame,vertex,x,y,z or time,marker,x,y,z, with "
@@ -249,6 +258,11 @@ EstimationJob JobFromFlags() {
   EstimationJob job;
   job.scene_paths = RepeatedPaths("scene");
   job.scene_from_target = SceneFromTargetFromFlags();
+  if (FlagIsGiven("quality")) {
+    job.quality = FromFlag("quality", FLAGS_quality, QualityFromName);
+    job.keep_integrator = FlagIsGiven("integrator");
+    job.keep_steps_per_frame = FlagIsGiven("steps_per_frame");
+  }
   job.settings = FLAGS_settings;
   job.target_paths = RepeatedPaths("target");
   job.target = TargetFromFlags();
@@ -309,6 +323,9 @@ int Main() {
   }
   const std::string output_dir = PrepareOutputDir(job, input);
   CatchInterrupts();
+  if (job.quality) {
+    std::cout << QualityText(FLAGS_quality, input.captures[0].scene) << "\n";
+  }
   PrintTask(input);
   ProgressTable table(isatty(STDOUT_FILENO) != 0);
   table.PrintHeader();

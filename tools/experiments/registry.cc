@@ -4,15 +4,17 @@
 #include "experiments/fits/experiment1.h"
 #include "experiments/fits/experiment2.h"
 #include "experiments/fits/floor.h"
+#include "experiments/requirements/cost_job.h"
+#include "experiments/requirements/features.h"
 #include "experiments/selftest.h"
+#include "experiments/tradeoff/tradeoff.h"
 
 namespace dpe::experiments {
 
 const std::vector<JobKind>& JobKinds() {
   static const std::vector<JobKind> kinds = {
-      SelfTestKind(),
-      EstimateKind(),
-      FloorKind(),
+      CostJobKind(),           SelfTestKind(),           EstimateKind(),    FloorKind(),
+      TradeoffReferenceKind(), TradeoffSimulationKind(), TradeoffFitKind(),
   };
   return kinds;
 }
@@ -21,6 +23,8 @@ const std::vector<Experiment>& Experiments() {
   static const std::vector<Experiment> experiments = {
       Experiment1(),
       Experiment2(),
+      OnlyWhatItRequires(),
+      TradeoffExperiment(),
   };
   return experiments;
 }

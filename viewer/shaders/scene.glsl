@@ -16,7 +16,9 @@ layout(push_constant) uniform Scene {
 vec4 Nearer(vec4 clip, float toward) {
   float z = clip.z + scene.clip_z_per_z * toward;
   float w = clip.w + scene.clip_w_per_z * toward;
-  return vec4(clip.xy, w > 0.0 ? z / w * clip.w : clip.z, clip.w);
+  if (clip.z < 0.0) return clip;  // not seen, and to stay so
+  // No nearer than the near plane.
+  return vec4(clip.xy, w > 0.0 ? max(z / w * clip.w, 0.0) : 0.0, clip.w);
 }
 
 // Metres that a pixel measures at a position.

@@ -42,6 +42,8 @@ void FrameSlot::Wait() const {
 
 void FrameSlot::Record(const Picture& picture, const RenderPasses& passes,
                        const FrameTarget& target, PictureDrawer* drawer, Gui* gui) {
+  // An exception may have ended the last recording.
+  vk::Check(vkResetCommandBuffer(commands_, 0), "resetting commands");
   VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   vk::Check(vkBeginCommandBuffer(commands_, &begin), "beginning commands");

@@ -14,6 +14,20 @@ constexpr std::uint32_t kImages = 3;
 
 void CheckImGui(VkResult result) { vk::Check(result, "drawing the user interface"); }
 
+// Makes a context the current one as long as it lives: there may be several.
+class MakeCurrent {
+ public:
+  explicit MakeCurrent(ImGuiContext* context) : before_(ImGui::GetCurrentContext()) {
+    ImGui::SetCurrentContext(context);
+  }
+  ~MakeCurrent() { ImGui::SetCurrentContext(before_); }
+  MakeCurrent(const MakeCurrent&) = delete;
+  MakeCurrent& operator=(const MakeCurrent&) = delete;
+
+ private:
+  ImGuiContext* before_;
+};
+
 vk::DescriptorPoolHandle MakeDescriptorPool(const vk::Device& device) {
   // One for the font, some for pictures.
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 16};
@@ -30,21 +44,29 @@ vk::DescriptorPoolHandle MakeDescriptorPool(const vk::Device& device) {
 
 }  // namespace
 
-Gui::Gui(GLFWwindow* window) : window_(window), context_(ImGui::CreateContext()) {
+Gui::Gui(GLFWwindow* window) : window_(window) {
+  ImGuiContext* const before = ImGui::GetCurrentContext();
+  context_ = ImGui::CreateContext();
   ImGui::SetCurrentContext(context_);
   ImGui::GetIO().IniFilename = nullptr;
-  if (window_ != nullptr) ImGui_ImplGlfw_InitForVulkan(window_, true);
+  if (window_ != nullptr) {
+    ImGui_ImplGlfw_InitForVulkan(window_, true);
+  } else {
+    ImGui::SetCurrentContext(before);
+  }
 }
 
 Gui::~Gui() {
   Detach();
+  ImGuiContext* const before = ImGui::GetCurrentContext();
   ImGui::SetCurrentContext(context_);
   if (window_ != nullptr) ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext(context_);
+  ImGui::SetCurrentContext(before != context_ ? before : nullptr);
 }
 
 void Gui::Attach(const vk::Device& device, const RenderPasses& passes) {
-  ImGui::SetCurrentContext(context_);
+  const MakeCurrent current(context_);
   descriptors_ = MakeDescriptorPool(device);
   ImGui_ImplVulkan_InitInfo info{};
   info.Instance = device.instance();
@@ -66,14 +88,14 @@ void Gui::Attach(const vk::Device& device, const RenderPasses& passes) {
 
 void Gui::Detach() {
   if (!attached_) return;
-  ImGui::SetCurrentContext(context_);
+  const MakeCurrent current(context_);
   ImGui_ImplVulkan_Shutdown();
   descriptors_ = {};
   attached_ = false;
 }
 
 void Gui::Build(const std::function<void()>& draw_ui, VkExtent2D extent) {
-  ImGui::SetCurrentContext(context_);
+  const MakeCurrent current(context_);
   built_ = false;
   if (!draw_ui) return;
   ImGui_ImplVulkan_NewFrame();
@@ -97,7 +119,7 @@ void Gui::Build(const std::function<void()>& draw_ui, VkExtent2D extent) {
 
 void Gui::Draw(VkCommandBuffer commands) {
   if (!built_) return;
-  ImGui::SetCurrentContext(context_);
+  const MakeCurrent current(context_);
   ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), commands);
 }
 

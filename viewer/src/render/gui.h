@@ -16,8 +16,9 @@ struct ImGuiContext;
 namespace dpe::viewer {
 
 // Owns the ImGui context, which outlives the device: panels stay as they are when a
-// lost device is replaced. The context is current while the Gui exists (with several,
-// that of the last Build).
+// lost device is replaced. The context of a window stays current from its making on,
+// because GLFW's callbacks use it between frames; without a window it is so in draw_ui
+// only.
 class Gui {
  public:
   // @param window  whose events ImGui gets; null: none

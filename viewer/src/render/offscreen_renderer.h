@@ -26,7 +26,8 @@ class OffscreenRenderer {
   // @param draw_ui  if there: called once with a current ImGui context, between
   // NewFrame
   //   and Render; what it draws covers the picture. The context (its DisplaySize is the
-  //   image's) lives as long as the renderer. No .ini file is read or written.
+  //   image's) lives as long as the renderer, but is current in draw_ui only. No .ini
+  //   file is read or written.
   Image Render(const Picture& picture, const std::function<void()>& draw_ui = {});
 
   // Of the device that draws.

@@ -34,9 +34,10 @@ VkDebugUtilsMessengerCreateInfoEXT MessengerInfo(ValidationLog* log) {
   return info;
 }
 
-bool HasExtension(const char* name) {
-  const auto extensions = List<VkExtensionProperties>(
-      vkEnumerateInstanceExtensionProperties, static_cast<const char*>(nullptr));
+// @param layer  whose extensions; null: the loader's and the drivers'
+bool HasExtension(const char* name, const char* layer) {
+  const auto extensions =
+      List<VkExtensionProperties>(vkEnumerateInstanceExtensionProperties, layer);
   return std::any_of(extensions.begin(), extensions.end(), [&](const auto& extension) {
     return std::strcmp(extension.extensionName, name) == 0;
   });
@@ -59,17 +60,27 @@ VkInstance MakeInstance(std::vector<const char*> extensions, ValidationLog* log)
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
   info.pApplicationInfo = &application;
   // Without this the loader hides MoltenVK, whose Vulkan is not complete.
-  if (HasExtension(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
+  if (HasExtension(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME, nullptr)) {
     extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
     info.flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
   }
-  const VkDebugUtilsMessengerCreateInfoEXT messenger = MessengerInfo(log);
+  VkDebugUtilsMessengerCreateInfoEXT messenger = MessengerInfo(log);
+  // Missing barriers too, which the layer does not look for unless asked to.
+  const VkValidationFeatureEnableEXT synchronization =
+      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+  features.enabledValidationFeatureCount = 1;
+  features.pEnabledValidationFeatures = &synchronization;
   if (log != nullptr) {
     RequireValidationLayer();
     extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &kValidationLayer;
     info.pNext = &messenger;
+    if (HasExtension(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME, kValidationLayer)) {
+      extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+      messenger.pNext = &features;
+    }
   }
   info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
