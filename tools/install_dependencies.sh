@@ -20,16 +20,22 @@ fail() {
 
 apt_packages="g++ cmake make git pkg-config ccache libceres-dev libsuitesparse-dev
   libeigen3-dev libgoogle-glog-dev libgflags-dev nlohmann-json3-dev
-  libopenblas-pthread-dev libtinyobjloader-dev"
-apt_test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format valgrind"
+  libopenblas-pthread-dev libtinyobjloader-dev libvulkan-dev mesa-vulkan-drivers
+  glslang-tools libglfw3-dev libimgui-dev libglm-dev libstb-dev"
+apt_test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format valgrind
+  vulkan-validationlayers xvfb xauth xdotool ffmpeg"
 dnf_packages="gcc-c++ cmake make git pkgconf-pkg-config ccache ceres-solver-devel
   suitesparse-devel eigen3-devel glog-devel gflags-devel json-devel openblas-devel
-  tinyobjloader-devel"
+  tinyobjloader-devel vulkan-loader-devel vulkan-headers mesa-vulkan-drivers glslang
+  glfw-devel glm-devel stb-devel"
 dnf_test_packages="gtest-devel gmock-devel google-benchmark-devel clang-tools-extra
-  valgrind"
+  valgrind vulkan-validation-layers xorg-x11-server-Xvfb xorg-x11-xauth xdotool
+  ffmpeg-free"
 brew_packages="cmake git pkg-config ccache ceres-solver suite-sparse eigen glog gflags
-  nlohmann-json openblas tinyobjloader"
-brew_test_packages="googletest google-benchmark clang-format"
+  nlohmann-json openblas tinyobjloader vulkan-loader vulkan-headers molten-vk glslang
+  glfw glm"
+brew_test_packages="googletest google-benchmark clang-format vulkan-validationlayers
+  ffmpeg"
 
 # as_root COMMAND...: directly where we are root, through sudo otherwise.
 as_root() {
