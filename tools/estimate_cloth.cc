@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "dpe/engine/quality.h"
 #include "dpe/estimation/estimation_job.h"
 #include "support/blas_threads.h"
+#include "support/estimator_names.h"
 #include "support/flag_ranges.h"
 #include "support/flag_values.h"
 #include "support/interrupt.h"
@@ -32,6 +34,14 @@ DEFINE_string(integrator, "tr_bdf2",
               "Integration method of a scene made of the target, by name or number.");
 DEFINE_int32(steps_per_frame, 4,
              "Integration steps in a frame of a scene made of the target.");
+DEFINE_string(
+    quality, "",
+    "Time stepping instead of the scene's: draft, standard, accurate or reference. "
+    "docs/quality.md says what they cost and how far parameters are off that are "
+    "fitted to a real motion with them. Without --target the motion that is to be "
+    "recovered is made with it, too. --integrator and --steps_per_frame, of a scene "
+    "made of the target, win where they are given. Without it the scene's own is used, "
+    "which is what reproduces a motion that was made with the scene as it is.");
 DEFINE_string(
     target, "",
     "What was observed: CSV (frame,vertex,x,y,z or time,marker,x,y,z, with "
@@ -173,63 +183,10 @@ DEFINE_bool(print_times, false,
 namespace dpe::tools {
 namespace {
 
-constexpr char kUniform[] = "uniform:";
-
 [[noreturn]] void Refuse(const std::string& flag, const std::string& value,
                          const std::string& accepted) {
   throw SceneError("--" + flag + ": \"" + value + "\" is not accepted; expected " +
                    accepted);
-}
-
-SolverType SolverFromFlag() {
-  if (FLAGS_solver == "auto") return SolverType::kAuto;
-  if (FLAGS_solver == "lm") return SolverType::kLevenbergMarquardt;
-  if (FLAGS_solver == "lbfgs") return SolverType::kLbfgs;
-  Refuse("solver", FLAGS_solver, "auto, lm or lbfgs");
-}
-
-JacobianMethod JacobianFromFlag() {
-  if (FLAGS_jacobian == "auto") return JacobianMethod::kAuto;
-  if (FLAGS_jacobian == "adjoint") return JacobianMethod::kAdjoint;
-  if (FLAGS_jacobian == "tangent") return JacobianMethod::kTangent;
-  Refuse("jacobian", FLAGS_jacobian, "auto, adjoint or tangent");
-}
-
-void SetInitFromFlag(EstimatorOptions* options) {
-  if (FLAGS_init == "auto") {
-    options->init = InitMethod::kAuto;
-  } else if (FLAGS_init == "inverse_dynamics") {
-    options->init = InitMethod::kInverseDynamics;
-  } else if (FLAGS_init == "scene") {
-    options->init = InitMethod::kScene;
-  } else if (FLAGS_init == "screen") {
-    options->init = InitMethod::kScreen;
-  } else if (FLAGS_init.rfind(kUniform, 0) == 0) {
-    options->init = InitMethod::kUniform;
-    options->uniform_value =
-        ParseNumbers("init", FLAGS_init.substr(sizeof(kUniform) - 1), 1)[0];
-    if (options->uniform_value <= 0.0) {
-      Refuse("init", FLAGS_init, "a number above 0 after uniform:");
-    }
-  } else {
-    Refuse("init", FLAGS_init,
-           "auto, inverse_dynamics, scene, screen or uniform:VALUE");
-  }
-}
-
-Horizon HorizonFromFlag() {
-  if (FLAGS_horizon == "auto") return Horizon::kAuto;
-  if (FLAGS_horizon == "full") return Horizon::kFull;
-  if (FLAGS_horizon == "grow") return Horizon::kGrow;
-  if (FLAGS_horizon == "shooting") return Horizon::kShooting;
-  Refuse("horizon", FLAGS_horizon, "auto, full, grow or shooting");
-}
-
-UncertaintyMode UncertaintyFromFlag() {
-  if (FLAGS_uncertainty == "auto") return UncertaintyMode::kAuto;
-  if (FLAGS_uncertainty == "on") return UncertaintyMode::kOn;
-  if (FLAGS_uncertainty == "off") return UncertaintyMode::kOff;
-  Refuse("uncertainty", FLAGS_uncertainty, "auto, on or off");
 }
 
 TargetOptions TargetFromFlags() {
@@ -301,6 +258,11 @@ EstimationJob JobFromFlags() {
   EstimationJob job;
   job.scene_paths = RepeatedPaths("scene");
   job.scene_from_target = SceneFromTargetFromFlags();
+  if (FlagIsGiven("quality")) {
+    job.quality = FromFlag("quality", FLAGS_quality, QualityFromName);
+    job.keep_integrator = FlagIsGiven("integrator");
+    job.keep_steps_per_frame = FlagIsGiven("steps_per_frame");
+  }
   job.settings = FLAGS_settings;
   job.target_paths = RepeatedPaths("target");
   job.target = TargetFromFlags();
@@ -308,17 +270,20 @@ EstimationJob JobFromFlags() {
   if (FLAGS_estimate_initial_velocity) job.estimate.push_back("initial_velocity");
   job.trajectory_format =
       FromFlag("trajectory_format", FLAGS_trajectory_format, TrajectoryFormatFromName);
-  job.options.uncertainty = UncertaintyFromFlag();
+  job.options.uncertainty =
+      FromFlag("uncertainty", FLAGS_uncertainty, UncertaintyFromName);
   job.num_frames = FLAGS_frames;
   job.num_validation_frames = FLAGS_validate_frames;
   job.noise_sigma = FLAGS_noise_sigma;
   job.noise_seed = FLAGS_seed;
   job.output_dir = FLAGS_output_dir;
-  job.options.solver = SolverFromFlag();
-  job.options.jacobian = JacobianFromFlag();
-  SetInitFromFlag(&job.options);
+  job.options.solver = FromFlag("solver", FLAGS_solver, SolverFromName);
+  job.options.jacobian = FromFlag("jacobian", FLAGS_jacobian, JacobianFromName);
+  const Start start = FromFlag("init", FLAGS_init, StartFromName);
+  job.options.init = start.method;
+  job.options.uniform_value = start.uniform_value;
   job.sigma = FLAGS_sigma;
-  job.options.horizon = HorizonFromFlag();
+  job.options.horizon = FromFlag("horizon", FLAGS_horizon, HorizonFromName);
   job.options.loss = FromFlag("loss", FLAGS_loss, LossTypeFromName);
   job.options.loss_scale = FLAGS_loss_scale;
   job.options.priors = FromFlag("prior", FLAGS_prior, PriorsFromText);
@@ -358,6 +323,9 @@ int Main() {
   }
   const std::string output_dir = PrepareOutputDir(job, input);
   CatchInterrupts();
+  if (job.quality) {
+    std::cout << QualityText(FLAGS_quality, input.captures[0].scene) << "\n";
+  }
   PrintTask(input);
   ProgressTable table(isatty(STDOUT_FILENO) != 0);
   table.PrintHeader();

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "dpe/engine/quality.h"
 #include "dpe/engine/scene_io.h"
 #include "dpe/engine/simulator.h"
 #include "dpe/estimation/trajectory_io.h"
@@ -36,6 +37,12 @@ DEFINE_double(delta, 0.0,
               "Length of a frame in s instead of the scene's; 0: the scene's.");
 DEFINE_int32(steps_per_frame, 0,
              "Integration steps per frame instead of the scene's; 0: the scene's.");
+DEFINE_string(
+    quality, "",
+    "Time stepping instead of the scene's: draft, standard, accurate or reference. "
+    "docs/quality.md says what they cost and give. --integrator and --steps_per_frame "
+    "win where they are given. Without it the scene's own is used, which is what the "
+    "motion of an existing scene was made with.");
 DEFINE_int32(threads, 1, "Number of threads.");
 DEFINE_bool(print_times, false,
             "Print where the time went (also if the scene's printTimes is true).");
@@ -65,7 +72,8 @@ class StepProgress {
   std::atomic<long> num_done_{0};
 };
 
-Scene SceneFromFlags() {
+// @param options  receives what a quality says of them
+Scene SceneFromFlags(SimulatorOptions* options) {
   RequireFlag("scene", FLAGS_scene, "the scene file to simulate");
   RequireFlag("output", FLAGS_output, "the file to write");
   RequireAtLeast("frames", FLAGS_frames, 0);
@@ -77,10 +85,14 @@ Scene SceneFromFlags() {
   for (const std::string& warning : warnings) {
     std::cerr << "simulate_cloth: warning: " << warning << "\n";
   }
+  if (FLAGS_delta > 0.0) scene.delta = FLAGS_delta;
+  if (FlagIsGiven("quality")) {
+    const Quality quality = FromFlag("quality", FLAGS_quality, QualityFromName);
+    ApplyStepSettings(SimulationSettings(quality, scene), &scene, options);
+  }
   if (!FLAGS_integrator.empty()) {
     scene.integration_method = IntegrationMethodFromName(FLAGS_integrator);
   }
-  if (FLAGS_delta > 0.0) scene.delta = FLAGS_delta;
   if (FLAGS_steps_per_frame > 0) scene.steps_per_frame = FLAGS_steps_per_frame;
   return scene;
 }
@@ -93,14 +105,15 @@ std::string Written(const std::vector<std::string>& files, int frames) {
 }
 
 int Main() {
-  const Scene scene = SceneFromFlags();
+  SimulatorOptions options;
+  const Scene scene = SceneFromFlags(&options);
   const TrajectoryFormat format =
       FromFlag("format", FLAGS_format, TrajectoryFormatFromName);
   UseOneBlasThread();
-  SimulatorOptions options;
   options.num_threads = FLAGS_threads;
   const int frames = FLAGS_frames > 0 ? FLAGS_frames : scene.num_frames;
   CheckTrajectoryOutput(FLAGS_output, format, frames);
+  if (FlagIsGiven("quality")) std::cout << QualityText(FLAGS_quality, scene) << "\n";
   CatchInterrupts();
   StepProgress progress(static_cast<long>(frames - 1) * scene.steps_per_frame *
                         scene.objects.size());
@@ -141,8 +154,8 @@ int main(int argc, char** argv) {
       "codes: 0 done, 1 bad flags or input, 2 stopped by Ctrl-C, 3 the simulation "
       "failed "
       "(the frames before that are written).",
-      "--scene FILE --output FILE [--format F] [--frames N] [--integrator METHOD] "
-      "[--delta S]",
+      "--scene FILE --output FILE [--format F] [--frames N] [--quality Q] "
+      "[--integrator METHOD] [--delta S]",
       __FILE__};
   return dpe::tools::RunMain(argc, argv, program, dpe::tools::Main);
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "forces/collider.h"
 #include "forces/drag.h"
 #include "forces/gravity.h"
 #include "forces/spring.h"
@@ -78,9 +77,34 @@ void ObjectSystem::AddForceTerms(const Scene& scene, const ClothObject& cloth) {
   if (cloth.drag_coefficient != 0.0 || cloth.estimate_drag) {
     add(DragTerm(DragLaw(cloth, scene.aerodynamics, &parameters_)));
   }
+  AddColliders(scene, cloth);
+}
+
+void ObjectSystem::AddColliders(const Scene& scene, const ClothObject& cloth) {
+  if (free_vertices_.empty()) return;
   for (const Collider& collider : scene.colliders) {
-    add(ColliderTerm(ColliderKernel(cloth, collider)));
+    if (collider.stiffness == 0.0) continue;
+    auto term = std::make_unique<ColliderTerm>(ColliderKernel(cloth, collider));
+    colliders_.push_back(term.get());
+    terms_.push_back(std::move(term));
   }
+}
+
+void ObjectSystem::SetColliders(const Scene& scene) {
+  const auto acts = [](const Collider& c) { return c.stiffness != 0.0; };
+  if (colliders_.size() ==
+      std::count_if(scene.colliders.begin(), scene.colliders.end(), acts)) {
+    size_t next = 0;
+    for (const Collider& collider : scene.colliders) {
+      if (acts(collider)) colliders_[next++]->mutable_kernel()->SetCollider(collider);
+    }
+    return;
+  }
+  terms_.resize(terms_.size() - colliders_.size());
+  colliders_.clear();
+  // They couple no vertices, so the pattern is as it was.
+  AddColliders(scene, scene.objects[object_]);
+  for (ColliderTerm* term : colliders_) term->BindPattern(pattern_, node_of_vertex_);
 }
 
 void ObjectSystem::SetParameters(const Scene& scene) {
@@ -108,6 +132,13 @@ void ObjectSystem::SetPrescribedPositions(int step, double* x) const {
     if (fraction > 0.0) {
       point += fraction * (path.positions.col(frame + 1) - path.positions.col(frame));
     }
+  }
+  if (driven_ == nullptr || step == 0) return;
+  const int step_in_frame = (step - 1) % steps_per_frame_ + 1;  // the last is the end
+  const double left = 1.0 - static_cast<double>(step_in_frame) / steps_per_frame_;
+  for (const DrivenVertex& driven : *driven_) {
+    Eigen::Map<Eigen::Vector3d>(x + 3 * driven.vertex) =
+        driven.to + left * (driven.from - driven.to);
   }
 }
 
@@ -180,6 +211,14 @@ void ObjectSystem::VisitMass(const double* dv, ParameterSink* sink) const {
     const Eigen::Vector3d d = -Eigen::Map<const Eigen::Vector3d>(dv + 3 * i);
     sink->Add(ParameterKind::kMass, i, d, &i, &weight, 1);
   }
+}
+
+std::string ObjectSystem::UndefinedReason(const double* x) const {
+  for (const auto& term : terms_) {
+    const std::string reason = term->UndefinedReason(x);
+    if (!reason.empty()) return reason;
+  }
+  return {};
 }
 
 bool ObjectSystem::IsSymmetric() const {

@@ -9,17 +9,25 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "dpe/engine/parameters.h"
 #include "dpe/engine/scene.h"
 #include "dpe/engine/timings.h"
+#include "forces/collider.h"
 #include "forces/force_term.h"
 #include "forces/parameter_sink.h"
 #include "linear/block_pattern.h"
 #include "linear/step_solver.h"
 
 namespace dpe {
+
+// A fixed vertex on its way during the frame at hand, in place of its path.
+struct DrivenVertex {
+  int vertex = -1;
+  Eigen::Vector3d from, to;  // m, at the frame's beginning and end
+};
 
 class ObjectSystem {
  public:
@@ -55,6 +63,11 @@ class ObjectSystem {
 
   // Takes this object's values out of `scene` (which holds the current parameters).
   void SetParameters(const Scene& scene);
+  // Takes the scene's colliders in place of those it has. Allocates nothing if there
+  // are as many as before.
+  void SetColliders(const Scene& scene);
+  // Fixed vertices that do not follow the scene's paths; null: none. Not copied.
+  void SetDrivenVertices(const std::vector<DrivenVertex>* driven) { driven_ = driven; }
   const Eigen::VectorXd& initial_positions() const { return initial_positions_; }
   const Eigen::VectorXd& initial_velocities() const { return initial_velocities_; }
 
@@ -87,6 +100,8 @@ class ObjectSystem {
   // Reports -dr/dp of the step residual r = M dv - h phi: h dphi/dp - (dM/dp) dv.
   void VisitStepParameters(const ForceState& state, double h, const double* dv,
                            ParameterSink* sink) const;
+  // Why some force is not defined at x, naming the element; empty if all are.
+  std::string UndefinedReason(const double* x) const;
   // True if df/dx and df/dv are symmetric at the current parameters.
   bool IsSymmetric() const;
 
@@ -96,6 +111,7 @@ class ObjectSystem {
 
  private:
   void AddForceTerms(const Scene& scene, const ClothObject& object);
+  void AddColliders(const Scene& scene, const ClothObject& object);
   void BuildPattern();
   void VisitMass(const double* dv, ParameterSink* sink) const;
 
@@ -106,7 +122,9 @@ class ObjectSystem {
   ObjectParameters parameters_;
   Eigen::VectorXd initial_positions_, initial_velocities_;
   std::vector<PrescribedPath> paths_;
+  const std::vector<DrivenVertex>* driven_ = nullptr;
   std::vector<std::unique_ptr<ForceTerm>> terms_;
+  std::vector<ColliderTerm*> colliders_;  // the last of terms_
   ParameterColumns columns_, local_columns_;
   BlockPattern pattern_;
   std::vector<BlockSlot> diagonal_;

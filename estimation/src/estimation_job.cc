@@ -95,6 +95,15 @@ Scene TakeScene(const Scene& scene, const std::string& name,
   return scene;
 }
 
+void ApplyQuality(const EstimationJob& job, bool made_of_target, Scene* scene) {
+  if (!job.quality) return;
+  const SceneFromTargetOptions& own = job.scene_from_target;
+  ApplyStepSettings(PresetOf(*job.quality).estimation, scene, nullptr);
+  if (!made_of_target) return;
+  if (job.keep_integrator) scene->integration_method = own.integration_method;
+  if (job.keep_steps_per_frame) scene->steps_per_frame = own.steps_per_frame;
+}
+
 // @param path          of the scene, or its name; empty: it is made of `target`
 // @param given         if it is in memory
 // @param input         receives warnings, and whose settings are to be chosen
@@ -105,6 +114,7 @@ Scene LoadJobScene(const EstimationJob& job, const std::string& path,
                 : path.empty()
                     ? SceneFromTarget(target, job.target, job.scene_from_target)
                     : LoadScene(path, &input->warnings);
+  ApplyQuality(job, given == nullptr && path.empty(), &scene);
   if (!job.settings.empty()) {
     input->auto_objects = ApplyAutoSettings(job.settings, &scene);
   }

@@ -128,6 +128,9 @@ std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
   report["scene"] = is_one ? TextOrNull(first.scene_path) : Json(nullptr);
   report["settings"] = SettingsString(first.scene);
   report["target"] = is_one ? TextOrNull(first.target_path) : Json(nullptr);
+  report["quality"] = job.quality ? Json(PresetOf(*job.quality).name) : Json(nullptr);
+  report["integrator"] = IntegrationMethodName(first.scene.integration_method);
+  report["steps_per_frame"] = first.scene.steps_per_frame;
   report["frames"] = summary.num_frames;
   report["solver"] = summary.solver;
   report["solver_reason"] = summary.solver_reason;

@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "dpe/engine/quality.h"
 #include "dpe/engine/scene.h"
 #include "dpe/engine/trajectory.h"
 #include "dpe/estimation/estimator.h"
@@ -26,6 +28,12 @@ struct EstimationJob {
   SceneFromTargetOptions scene_from_target;
   // What to estimate, as ApplyAutoSettings reads it; empty: as the scene says.
   std::string settings;
+  // Whose time stepping (QualityPreset::estimation) takes the place of the scenes': of
+  // the fit and, where there are no targets, of the motions that are made to be them.
+  // Not in place of what scene_from_target says, where it is to be kept.
+  std::optional<Quality> quality;
+  bool keep_integrator = false;
+  bool keep_steps_per_frame = false;
   // More to estimate: "damping", "drag", "wind", "initial_velocity", of all objects
   // that have it.
   std::vector<std::string> estimate;

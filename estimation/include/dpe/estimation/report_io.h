@@ -11,11 +11,12 @@ namespace dpe {
 
 // The report as JSON text; what is unknown or not a finite number is null.
 //
-// scene, settings, target, frames, solver, solver_reason, jacobian, init, success,
-// termination, message, notes [], iterations, evaluations, jacobian_evaluations,
-// wall_time_s, initial_cost and final_cost (m^2), initial_rms_position_error_m,
-// rms_position_error_m, validation {frames, rms_position_error_m, note},
-// parameter_deviation_percent, noise_sigma_m, seed, and
+// scene, settings, target, quality (null: not asked for), integrator and
+// steps_per_frame (of the first scene), frames, solver, solver_reason, jacobian, init,
+// success, termination, message, notes [], iterations, evaluations,
+// jacobian_evaluations, wall_time_s, initial_cost and final_cost (m^2),
+// initial_rms_position_error_m, rms_position_error_m, validation {frames,
+// rms_position_error_m, note}, parameter_deviation_percent, noise_sigma_m, seed, and
 // parameters [{object, capture, kind, mode, unit, values, true_values, elements,
 // inactive}]: `elements` names the element of each value in mode L, `inactive` the
 // elements without influence on the motion. `capture` (1, 2, ...) is whose alone the
