@@ -21,15 +21,16 @@ fail() {
 apt_packages="g++ cmake make git pkg-config ccache libceres-dev libsuitesparse-dev
   libeigen3-dev libgoogle-glog-dev libgflags-dev nlohmann-json3-dev
   libopenblas-pthread-dev libtinyobjloader-dev"
-apt_test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format valgrind"
+apt_test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format valgrind
+  mono-mcs mono-runtime"
 dnf_packages="gcc-c++ cmake make git pkgconf-pkg-config ccache ceres-solver-devel
   suitesparse-devel eigen3-devel glog-devel gflags-devel json-devel openblas-devel
   tinyobjloader-devel"
 dnf_test_packages="gtest-devel gmock-devel google-benchmark-devel clang-tools-extra
-  valgrind"
+  valgrind mono-core"
 brew_packages="cmake git pkg-config ccache ceres-solver suite-sparse eigen glog gflags
   nlohmann-json openblas tinyobjloader"
-brew_test_packages="googletest google-benchmark clang-format"
+brew_test_packages="googletest google-benchmark clang-format mono"
 
 # as_root COMMAND...: directly where we are root, through sudo otherwise.
 as_root() {
