@@ -9,6 +9,7 @@
 
 #include "dpe/estimation/estimation_job.h"
 #include "support/blas_threads.h"
+#include "support/estimator_names.h"
 #include "support/flag_ranges.h"
 #include "support/flag_values.h"
 #include "support/interrupt.h"
@@ -173,63 +174,10 @@ DEFINE_bool(print_times, false,
 namespace dpe::tools {
 namespace {
 
-constexpr char kUniform[] = "uniform:";
-
 [[noreturn]] void Refuse(const std::string& flag, const std::string& value,
                          const std::string& accepted) {
   throw SceneError("--" + flag + ": \"" + value + "\" is not accepted; expected " +
                    accepted);
-}
-
-SolverType SolverFromFlag() {
-  if (FLAGS_solver == "auto") return SolverType::kAuto;
-  if (FLAGS_solver == "lm") return SolverType::kLevenbergMarquardt;
-  if (FLAGS_solver == "lbfgs") return SolverType::kLbfgs;
-  Refuse("solver", FLAGS_solver, "auto, lm or lbfgs");
-}
-
-JacobianMethod JacobianFromFlag() {
-  if (FLAGS_jacobian == "auto") return JacobianMethod::kAuto;
-  if (FLAGS_jacobian == "adjoint") return JacobianMethod::kAdjoint;
-  if (FLAGS_jacobian == "tangent") return JacobianMethod::kTangent;
-  Refuse("jacobian", FLAGS_jacobian, "auto, adjoint or tangent");
-}
-
-void SetInitFromFlag(EstimatorOptions* options) {
-  if (FLAGS_init == "auto") {
-    options->init = InitMethod::kAuto;
-  } else if (FLAGS_init == "inverse_dynamics") {
-    options->init = InitMethod::kInverseDynamics;
-  } else if (FLAGS_init == "scene") {
-    options->init = InitMethod::kScene;
-  } else if (FLAGS_init == "screen") {
-    options->init = InitMethod::kScreen;
-  } else if (FLAGS_init.rfind(kUniform, 0) == 0) {
-    options->init = InitMethod::kUniform;
-    options->uniform_value =
-        ParseNumbers("init", FLAGS_init.substr(sizeof(kUniform) - 1), 1)[0];
-    if (options->uniform_value <= 0.0) {
-      Refuse("init", FLAGS_init, "a number above 0 after uniform:");
-    }
-  } else {
-    Refuse("init", FLAGS_init,
-           "auto, inverse_dynamics, scene, screen or uniform:VALUE");
-  }
-}
-
-Horizon HorizonFromFlag() {
-  if (FLAGS_horizon == "auto") return Horizon::kAuto;
-  if (FLAGS_horizon == "full") return Horizon::kFull;
-  if (FLAGS_horizon == "grow") return Horizon::kGrow;
-  if (FLAGS_horizon == "shooting") return Horizon::kShooting;
-  Refuse("horizon", FLAGS_horizon, "auto, full, grow or shooting");
-}
-
-UncertaintyMode UncertaintyFromFlag() {
-  if (FLAGS_uncertainty == "auto") return UncertaintyMode::kAuto;
-  if (FLAGS_uncertainty == "on") return UncertaintyMode::kOn;
-  if (FLAGS_uncertainty == "off") return UncertaintyMode::kOff;
-  Refuse("uncertainty", FLAGS_uncertainty, "auto, on or off");
 }
 
 TargetOptions TargetFromFlags() {
@@ -308,17 +256,20 @@ EstimationJob JobFromFlags() {
   if (FLAGS_estimate_initial_velocity) job.estimate.push_back("initial_velocity");
   job.trajectory_format =
       FromFlag("trajectory_format", FLAGS_trajectory_format, TrajectoryFormatFromName);
-  job.options.uncertainty = UncertaintyFromFlag();
+  job.options.uncertainty =
+      FromFlag("uncertainty", FLAGS_uncertainty, UncertaintyFromName);
   job.num_frames = FLAGS_frames;
   job.num_validation_frames = FLAGS_validate_frames;
   job.noise_sigma = FLAGS_noise_sigma;
   job.noise_seed = FLAGS_seed;
   job.output_dir = FLAGS_output_dir;
-  job.options.solver = SolverFromFlag();
-  job.options.jacobian = JacobianFromFlag();
-  SetInitFromFlag(&job.options);
+  job.options.solver = FromFlag("solver", FLAGS_solver, SolverFromName);
+  job.options.jacobian = FromFlag("jacobian", FLAGS_jacobian, JacobianFromName);
+  const Start start = FromFlag("init", FLAGS_init, StartFromName);
+  job.options.init = start.method;
+  job.options.uniform_value = start.uniform_value;
   job.sigma = FLAGS_sigma;
-  job.options.horizon = HorizonFromFlag();
+  job.options.horizon = FromFlag("horizon", FLAGS_horizon, HorizonFromName);
   job.options.loss = FromFlag("loss", FLAGS_loss, LossTypeFromName);
   job.options.loss_scale = FLAGS_loss_scale;
   job.options.priors = FromFlag("prior", FLAGS_prior, PriorsFromText);

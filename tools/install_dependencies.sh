@@ -18,19 +18,45 @@ fail() {
   exit 1
 }
 
+# A list per part of the project: libraries and programs, viewer, Python module,
+# run_experiments' plots; then the same for what only tests need (Slurm and munge for
+# campaigns on a cluster, Mono for the Unity package).
 apt_packages="g++ cmake make git pkg-config ccache libceres-dev libsuitesparse-dev
   libeigen3-dev libgoogle-glog-dev libgflags-dev nlohmann-json3-dev
-  libopenblas-pthread-dev libtinyobjloader-dev"
+  libopenblas-pthread-dev libtinyobjloader-dev
+  libvulkan-dev mesa-vulkan-drivers glslang-tools libglfw3-dev libimgui-dev libglm-dev
+  libstb-dev
+  python3-dev python3-numpy pybind11-dev
+  gnuplot-nox"
 apt_test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format valgrind
+  vulkan-validationlayers xvfb xauth xdotool ffmpeg
+  python3-pytest python3-scipy python3-matplotlib python3-pip python3-setuptools
+  python3-wheel
+  slurmctld slurmd slurm-client munge
   mono-mcs mono-runtime"
 dnf_packages="gcc-c++ cmake make git pkgconf-pkg-config ccache ceres-solver-devel
   suitesparse-devel eigen3-devel glog-devel gflags-devel json-devel openblas-devel
-  tinyobjloader-devel"
+  tinyobjloader-devel
+  vulkan-loader-devel vulkan-headers mesa-vulkan-drivers glslang glfw-devel glm-devel
+  stb-devel
+  python3-devel python3-numpy pybind11-devel
+  gnuplot"
 dnf_test_packages="gtest-devel gmock-devel google-benchmark-devel clang-tools-extra
-  valgrind mono-core"
+  valgrind
+  vulkan-validation-layers xorg-x11-server-Xvfb xorg-x11-xauth xdotool ffmpeg-free
+  python3-pytest python3-scipy python3-matplotlib python3-pip python3-setuptools
+  python3-wheel
+  slurm-slurmctld slurm-slurmd slurm munge
+  mono-core"
 brew_packages="cmake git pkg-config ccache ceres-solver suite-sparse eigen glog gflags
-  nlohmann-json openblas tinyobjloader"
-brew_test_packages="googletest google-benchmark clang-format mono"
+  nlohmann-json openblas tinyobjloader
+  vulkan-loader vulkan-headers molten-vk glslang glfw glm
+  numpy pybind11
+  gnuplot"
+brew_test_packages="googletest google-benchmark clang-format
+  vulkan-validationlayers ffmpeg
+  scipy
+  mono"
 
 # as_root COMMAND...: directly where we are root, through sudo otherwise.
 as_root() {

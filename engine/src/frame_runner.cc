@@ -73,7 +73,23 @@ StepOutcome FrameRunner::Step(int step, const double* x0, const double* v0,
     outcome.code = RolloutStatus::Code::kNotFinite;
     outcome.reason = integrator_->DivergenceReason();
   }
+  if (!outcome.ok()) NameUndefinedForce(x0, result, &outcome);
   return outcome;
+}
+
+// Whatever a step ends with that met a force without a value, that is the reason. The
+// states that it has met: the one before, and those that it was about to reach.
+void FrameRunner::NameUndefinedForce(const double* x0, const StepResult& result,
+                                     StepOutcome* outcome) const {
+  for (const double* x : {x0, static_cast<const double*>(result.xs),
+                          static_cast<const double*>(result.x1)}) {
+    if (x == nullptr) continue;
+    const std::string reason = system_->UndefinedReason(x);
+    if (reason.empty()) continue;
+    outcome->code = RolloutStatus::Code::kNotFinite;
+    outcome->reason = reason;
+    return;
+  }
 }
 
 }  // namespace dpe

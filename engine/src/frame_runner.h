@@ -49,6 +49,8 @@ class FrameRunner {
  private:
   StepOutcome Step(int step, const double* x0, const double* v0,
                    const StepResult& result);
+  void NameUndefinedForce(const double* x0, const StepResult& result,
+                          StepOutcome* outcome) const;
 
   const Scene& scene_;
   const SimulatorOptions& options_;

@@ -83,6 +83,7 @@ void ObjectSystem::AddForceTerms(const Scene& scene, const ClothObject& cloth) {
 void ObjectSystem::AddColliders(const Scene& scene, const ClothObject& cloth) {
   if (free_vertices_.empty()) return;
   for (const Collider& collider : scene.colliders) {
+    if (collider.stiffness == 0.0) continue;
     auto term = std::make_unique<ColliderTerm>(ColliderKernel(cloth, collider));
     colliders_.push_back(term.get());
     terms_.push_back(std::move(term));
@@ -90,9 +91,12 @@ void ObjectSystem::AddColliders(const Scene& scene, const ClothObject& cloth) {
 }
 
 void ObjectSystem::SetColliders(const Scene& scene) {
-  if (colliders_.size() == scene.colliders.size()) {
-    for (size_t c = 0; c < colliders_.size(); ++c) {
-      colliders_[c]->mutable_kernel()->SetCollider(scene.colliders[c]);
+  const auto acts = [](const Collider& c) { return c.stiffness != 0.0; };
+  if (colliders_.size() ==
+      std::count_if(scene.colliders.begin(), scene.colliders.end(), acts)) {
+    size_t next = 0;
+    for (const Collider& collider : scene.colliders) {
+      if (acts(collider)) colliders_[next++]->mutable_kernel()->SetCollider(collider);
     }
     return;
   }
@@ -207,6 +211,14 @@ void ObjectSystem::VisitMass(const double* dv, ParameterSink* sink) const {
     const Eigen::Vector3d d = -Eigen::Map<const Eigen::Vector3d>(dv + 3 * i);
     sink->Add(ParameterKind::kMass, i, d, &i, &weight, 1);
   }
+}
+
+std::string ObjectSystem::UndefinedReason(const double* x) const {
+  for (const auto& term : terms_) {
+    const std::string reason = term->UndefinedReason(x);
+    if (!reason.empty()) return reason;
+  }
+  return {};
 }
 
 bool ObjectSystem::IsSymmetric() const {

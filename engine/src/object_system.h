@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "dpe/engine/parameters.h"
@@ -99,6 +100,8 @@ class ObjectSystem {
   // Reports -dr/dp of the step residual r = M dv - h phi: h dphi/dp - (dM/dp) dv.
   void VisitStepParameters(const ForceState& state, double h, const double* dv,
                            ParameterSink* sink) const;
+  // Why some force is not defined at x, naming the element; empty if all are.
+  std::string UndefinedReason(const double* x) const;
   // True if df/dx and df/dv are symmetric at the current parameters.
   bool IsSymmetric() const;
 

@@ -36,6 +36,19 @@ void SetZero(int num_threads, RowMajorMatrix* matrix) {
   });
 }
 
+// Derivatives of a rollout that is finite grow with every step of an unstable motion,
+// and may leave the range of finite numbers where its states do not.
+bool IsFinite(int num_threads, const RowMajorMatrix& matrix) {
+  const Eigen::Index num_chunks = std::min<Eigen::Index>(matrix.rows(), 64);
+  std::atomic<bool> finite{true};
+  ParallelFor(num_threads, static_cast<int>(num_chunks), [&](int i) {
+    const Eigen::Index begin = matrix.rows() * i / num_chunks;
+    const Eigen::Index end = matrix.rows() * (i + 1) / num_chunks;
+    if (!matrix.middleRows(begin, end - begin).allFinite()) finite = false;
+  });
+  return finite;
+}
+
 }  // namespace
 
 Sensitivity::Sensitivity(Simulator* simulator, const Rollout* rollout)
@@ -76,6 +89,7 @@ Eigen::VectorXd Sensitivity::Gradient(const std::vector<Eigen::MatrixXd>& dl_dx,
     const std::vector<int>& columns = simulator_->systems_[o]->columns().used();
     for (size_t k = 0; k < columns.size(); ++k) gradient[columns[k]] += parts[o][k];
   }
+  ok_ &= gradient.allFinite();
   return gradient;
 }
 
@@ -89,7 +103,8 @@ void Sensitivity::JacobianVectorProduct(const Eigen::VectorXd& dp,
   std::atomic<bool> ok{true};
   ParallelFor(simulator_->options_.num_threads, num_objects, [&](int o) {
     if (!simulator_->systems_[o]) return;
-    if (!PropagateTangent(Record(o), dp, &(*dx)[o], &(*dv)[o])) ok = false;
+    const bool solved = PropagateTangent(Record(o), dp, &(*dx)[o], &(*dv)[o]);
+    if (!solved || !(*dx)[o].allFinite() || !(*dv)[o].allFinite()) ok = false;
   });
   ok_ &= ok;
 }
@@ -116,6 +131,7 @@ void Sensitivity::Jacobian(const std::vector<StateDerivative>& derivatives,
                ? AddTangentJacobian(Record(o), of_object, jacobian)
                : AddAdjointJacobian(Record(o), of_object, jacobian);
   }
+  ok_ &= IsFinite(simulator_->options_.num_threads, *jacobian);
 }
 
 JacobianCosts Sensitivity::PredictCosts(

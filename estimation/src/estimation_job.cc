@@ -10,6 +10,7 @@
 #include "dpe/engine/scene_io.h"
 #include "dpe/engine/simulator.h"
 #include "dpe/estimation/joint_layout.h"
+#include "dpe/estimation/observed_scene.h"
 #include "fit_setup.h"
 
 namespace dpe {
@@ -23,10 +24,23 @@ SimulatorOptions OptionsFor(const EstimatorOptions& options) {
   return simulator_options;
 }
 
-void ReadTarget(const EstimationJob& job, CaptureInput* capture,
+// What LoadTarget lets the scene take over, of a target in memory.
+Observations TakeTarget(const EstimationJob& job, size_t index, CaptureInput* capture) {
+  const Observations& target = job.targets[index];
+  if (job.target.start_from_target) StartFromObservation(target, &capture->scene);
+  if (job.target.follow_pins) {
+    FollowObservedPins(target, capture->target_path, &capture->scene);
+  }
+  ValidateScene(capture->scene, capture->target_path + " and the scene");
+  return target;
+}
+
+void ReadTarget(const EstimationJob& job, size_t index, CaptureInput* capture,
                 std::vector<std::string>* warnings) {
   capture->reference =
-      LoadTarget(capture->target_path, job.target, &capture->scene, warnings);
+      job.targets.empty()
+          ? LoadTarget(capture->target_path, job.target, &capture->scene, warnings)
+          : TakeTarget(job, index, capture);
   const int in_file = capture->reference.num_frames();
   capture->num_frames = std::min(
       job.num_frames > 0 ? job.num_frames : capture->scene.num_frames, in_file);
@@ -75,11 +89,20 @@ void EstimateMore(const std::string& what, Scene* scene) {
   }
 }
 
-// @param path          of the scene; empty: it is made of `target`
+Scene TakeScene(const Scene& scene, const std::string& name,
+                std::vector<std::string>* warnings) {
+  ValidateScene(scene, name, warnings);
+  return scene;
+}
+
+// @param path          of the scene, or its name; empty: it is made of `target`
+// @param given         if it is in memory
 // @param input         receives warnings, and whose settings are to be chosen
 Scene LoadJobScene(const EstimationJob& job, const std::string& path,
-                   const std::string& target, EstimationInput* input) {
-  Scene scene = path.empty()
+                   const Scene* given, const std::string& target,
+                   EstimationInput* input) {
+  Scene scene = given != nullptr ? TakeScene(*given, path, &input->warnings)
+                : path.empty()
                     ? SceneFromTarget(target, job.target, job.scene_from_target)
                     : LoadScene(path, &input->warnings);
   if (!job.settings.empty()) {
@@ -96,11 +119,26 @@ Scene LoadJobScene(const EstimationJob& job, const std::string& path,
   return scene;
 }
 
+// The paths; names for what is in memory: "scene", or "scene 1", ...
+std::vector<std::string> Names(const std::vector<std::string>& paths, size_t in_memory,
+                               const std::string& name) {
+  if (in_memory == 0) return paths;
+  std::vector<std::string> names;
+  for (size_t i = 1; i <= in_memory; ++i) {
+    names.push_back(in_memory == 1 ? name : name + " " + std::to_string(i));
+  }
+  return names;
+}
+
 // Captures with their scenes and the names of their targets.
 std::vector<CaptureInput> PairScenesWithTargets(const EstimationJob& job,
                                                 EstimationInput* input) {
-  const size_t num_scenes = job.scene_paths.size();
-  const size_t num_targets = job.target_paths.size();
+  const std::vector<std::string> scenes =
+      Names(job.scene_paths, job.scenes.size(), "scene");
+  const std::vector<std::string> targets =
+      Names(job.target_paths, job.targets.size(), "target");
+  const size_t num_scenes = scenes.size();
+  const size_t num_targets = targets.size();
   const bool is_one_for_all = num_scenes == 1 && num_targets > 1;
   const bool are_pairs = num_scenes == 0 || num_targets == 0;
   if (num_scenes + num_targets == 0 ||
@@ -113,13 +151,16 @@ std::vector<CaptureInput> PairScenesWithTargets(const EstimationJob& job,
   std::vector<CaptureInput> captures;
   for (size_t c = 0; c < std::max(num_scenes, num_targets); ++c) {
     CaptureInput capture;
-    if (num_targets > 0) capture.target_path = job.target_paths[c];
-    if (num_scenes > 0) capture.scene_path = job.scene_paths[is_one_for_all ? 0 : c];
+    const size_t s = is_one_for_all ? 0 : c;
+    if (num_targets > 0) capture.target_path = targets[c];
+    if (num_scenes > 0) capture.scene_path = scenes[s];
     // What is to be said of one scene is to be said once.
     const bool is_known = is_one_for_all && c > 0;
-    capture.scene =
-        is_known ? captures[0].scene
-                 : LoadJobScene(job, capture.scene_path, capture.target_path, input);
+    capture.scene = is_known
+                        ? captures[0].scene
+                        : LoadJobScene(job, capture.scene_path,
+                                       job.scenes.empty() ? nullptr : &job.scenes[s],
+                                       capture.target_path, input);
     captures.push_back(std::move(capture));
   }
   return captures;
@@ -133,11 +174,11 @@ void RequireFrames(const EstimationJob& job, const EstimationInput& input) {
     most = capture.reference.num_frames();
     longest = &capture;
   }
-  if (!job.target_paths.empty() && job.num_frames > most) {
+  if (!input.truth_is_known && job.num_frames > most) {
     throw SceneError("--frames: " + std::to_string(job.num_frames) +
                      " asked for; accepted are 2 to " + std::to_string(most) +
                      ", the frames in " +
-                     (longest != nullptr ? longest->target_path : job.target_paths[0]));
+                     (longest != nullptr ? longest : &input.captures[0])->target_path);
   }
   for (const CaptureInput& capture : input.captures) {
     if (capture.num_frames >= 2) continue;
@@ -208,12 +249,12 @@ std::vector<const Scene*> EstimationInput::scenes() const {
 EstimationInput LoadEstimationInput(const EstimationJob& job) {
   EstimationInput input;
   input.captures = PairScenesWithTargets(job, &input);
-  input.truth_is_known = job.target_paths.empty();
-  for (CaptureInput& capture : input.captures) {
+  input.truth_is_known = job.target_paths.empty() && job.targets.empty();
+  for (size_t c = 0; c < input.captures.size(); ++c) {
     if (input.truth_is_known) {
-      MakeTarget(job, &capture);
+      MakeTarget(job, &input.captures[c]);
     } else {
-      ReadTarget(job, &capture, &input.warnings);
+      ReadTarget(job, c, &input.captures[c], &input.warnings);
     }
   }
   RequireFrames(job, input);

@@ -33,8 +33,9 @@ std::string TrajectoryPath(const EstimationJob& job, const std::string& output_d
 namespace {
 
 std::string NameWith(const EstimationJob& job, const std::string& settings) {
-  const std::vector<std::string>& paths =
+  std::vector<std::string> paths =
       job.scene_paths.empty() ? job.target_paths : job.scene_paths;
+  if (!job.scenes.empty()) paths.assign(job.scenes.size(), "scene");
   std::string name = std::filesystem::path(paths[0]).stem().string();
   if (paths.size() > 1) name += "_and_" + std::to_string(paths.size() - 1) + "_more";
   return name + "_" + settings;

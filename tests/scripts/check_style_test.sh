@@ -46,6 +46,7 @@ clean_project() {
       'int main() { std::printf("1"); }'
   put tools/fit_cloth.cc '#include <gflags/gflags.h>' "" '#include <iostream>' \
       "int main() { std::cout << 1; }"
+  put viewer/main.cc '#include <gflags/gflags.h>' "" "int main() { std::cerr << 1; }"
   put viewer/window.cc '#include <GLFW/glfw3.h>' '#include <vulkan/vulkan.h>'
   put tests/engine/spring_test.cc '#include "forces/spring.h"' "" \
       '#include <nlohmann/json.hpp>'
@@ -73,11 +74,11 @@ if [[ "$(clang-format --version 2> /dev/null)" == *"version 14."* ]]; then
   refused "a broken .clang-format" "clang-format.* failed"
 fi
 
-# Sizes. The clean project has seven short files.
+# Sizes. The clean project has eight short files.
 # shellcheck disable=SC2046
 put engine/src/long.cc $(lines 401 "//")
 refused "a very long file" "95th percentile of files is 401 lines"
-for i in 1 2 3 4 5 6 7 8 9 10; do
+for i in 1 2 3 4 5 6 7 8 9 10 11; do
   # shellcheck disable=SC2046
   put "engine/src/middling$i.cc" $(lines 126 "//")
 done
@@ -106,6 +107,10 @@ put engine/src/scene.cc '#include <nlohmann/json.hpp>'
 refused "JSON outside *_io files" "^engine/src/scene.cc:1: JSON belongs"
 put estimation/src/flags.cc '#include <gflags/gflags.h>'
 refused "flags in a library" "^estimation/src/flags.cc:1: flags belong to tools"
+put viewer/options.cc '#include <gflags/gflags.h>'
+refused "flags in the viewer but for its program" "^viewer/options.cc:1: flags belong"
+put viewer/say.cc "void Say() { std::cerr << 1; }"
+refused "std::cerr in the viewer but for its program" "^viewer/say.cc:1: only the programs"
 put engine/src/say.cc "void Say() { std::cout << 1; }"
 refused "std::cout in a library" "^engine/src/say.cc:1: only the programs"
 put engine/src/say.cc 'void Say() { std::printf("1"); }'
@@ -140,7 +145,11 @@ if command -v git > /dev/null; then
   put build/generated.cc "void Say() { std::cout << 1; }"
   expect "ignored files are not looked at" 0 "" \
       bash "$tools/check_style.sh" --root "$root"
-  put engine/src/say.cc "void Say() { std::cout << 1; }"
+  put viewer/options.cc '#include <gflags/gflags.h>'
+refused "flags in the viewer but for its program" "^viewer/options.cc:1: flags belong"
+put viewer/say.cc "void Say() { std::cerr << 1; }"
+refused "std::cerr in the viewer but for its program" "^viewer/say.cc:1: only the programs"
+put engine/src/say.cc "void Say() { std::cout << 1; }"
   refused "new files are looked at" "^engine/src/say.cc:1"
 fi
 finish

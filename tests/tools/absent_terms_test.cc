@@ -4,15 +4,12 @@
 // which the term cannot exist, and clearly fewer than one that has it.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "dpe/engine/cloth_builder.h"
 #include "dpe/engine/scene_io.h"
-#include "support/run_program.h"
+#include "experiments/requirements/instruction_count.h"
 #include "support/temp_dir.h"
 
 namespace dpe::test {
@@ -21,15 +18,6 @@ namespace {
 // The same work takes the same number of instructions but for rounding, which may
 // change where an iteration ends.
 constexpr double kNoise = 0.001;
-
-// Valgrind does not run programs that sanitizers have instrumented.
-bool CanCountInstructions() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return false;
-#else
-  return RunProgram("/usr/bin/env", {"valgrind", "--version"}).exit_code == 0;
-#endif
-}
 
 // A standing cloth with strong wind on it, damped and with drag; some springs are left
 // out, so that a triangle has edges that no spring has.
@@ -68,9 +56,8 @@ Scene BareScene() {
 class AbsentTermsTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!CanCountInstructions()) {
-      GTEST_SKIP() << "valgrind is not installed, or this is a build for sanitizers";
-    }
+    std::string why;
+    if (!experiments::CanCountInstructions(&why)) GTEST_SKIP() << why;
   }
 
   // Instructions of a rollout, without reading and writing files.
@@ -89,46 +76,14 @@ class AbsentTermsTest : public ::testing::Test {
 
  private:
   double Count(const std::string& function, const Scene& scene,
-               const std::string& program, std::vector<std::string> flags) {
+               const std::string& program, const std::vector<std::string>& flags) {
     const std::string path = folder_.File("scene.txt");
-    const std::string profile = folder_.File("profile");
     SaveScene(scene, path);
-    flags.insert(
-        flags.begin(),
-        {"valgrind", "--tool=callgrind", "--callgrind-out-file=" + profile,
-         "--toggle-collect=" + function, DPE_BIN_DIR "/" + program, "--scene=" + path});
-    RunProgramOptions options;
-    options.timeout = 300.0;
-    const ProgramResult result = RunProgram("/usr/bin/env", flags, options);
-    const ProgramResult annotation =
-        RunProgram("/usr/bin/env", {"callgrind_annotate", "--threshold=100", profile});
-    if (result.timed_out || annotation.exit_code != 0) {
-      ADD_FAILURE() << program << ", exit code " << result.exit_code << "\n"
-                    << result.err << annotation.err;
-      return std::numeric_limits<double>::quiet_NaN();
-    }
-    const double count = SumOutsideOfLibc(annotation.out);
+    std::vector<std::string> command = {DPE_BIN_DIR "/" + program, "--scene=" + path};
+    command.insert(command.end(), flags.begin(), flags.end());
+    const double count = experiments::CountInstructions(command, {function}).total;
     EXPECT_GT(count, 1e6) << function << " was not called";
     return count;
-  }
-
-  // Lines are "1,234 (5.6%)  file:function [library]". What malloc has to do depends on
-  // all that was allocated and freed before, so the C library is left out.
-  static double SumOutsideOfLibc(const std::string& annotation) {
-    double sum = 0.0;
-    std::istringstream lines(annotation);
-    for (std::string line; std::getline(lines, line);) {
-      const size_t end = line.find(" (");
-      if (line.find(':') == std::string::npos || end == std::string::npos ||
-          line.find("/libc.so") != std::string::npos) {
-        continue;
-      }
-      std::string number = line.substr(0, end);
-      number.erase(std::remove(number.begin(), number.end(), ','), number.end());
-      if (number.find_first_not_of(" 0123456789") != std::string::npos) continue;
-      sum += std::stod(number);
-    }
-    return sum;
   }
 
   const TempDir folder_;
@@ -177,6 +132,10 @@ TEST_F(AbsentTermsTest, OnlyScenesWithCollidersPayForThem) {
   far.colliders = {sphere};
   const double without = OfSimulation(BareScene());
   const double one = OfSimulation(far);
+  // One that pushes nobody away is none.
+  Scene soft = far;
+  soft.colliders[0].stiffness = 0.0;
+  ExpectEqual(OfSimulation(soft), without);
   far.colliders = {sphere, sphere};
   // Each costs the same: nothing comes with the first one alone, for all colliders.
   EXPECT_NEAR(OfSimulation(far) - one, one - without, 0.1 * (one - without));

@@ -19,7 +19,14 @@ class Record {
 
   // Replaces the value of a key that is there already.
   void Set(const std::string& key, Value value);
-  void Set(const std::string& key, const char* value) { Set(key, std::string(value)); }
+  // Numbers and truth values convert to each other more readily than to a Value: each
+  // type has its own way in, or a double would be stored as a whole number.
+  void Set(const std::string& key, const char* value) {
+    Set(key, Value(std::string(value)));
+  }
+  void Set(const std::string& key, bool value) { Set(key, Value(value)); }
+  void Set(const std::string& key, double value) { Set(key, Value(value)); }
+  void Set(const std::string& key, std::int64_t value) { Set(key, Value(value)); }
   void Set(const std::string& key, int value) { Set(key, std::int64_t{value}); }
 
   bool Has(const std::string& key) const;

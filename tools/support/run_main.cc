@@ -91,8 +91,20 @@ int RunMain(int argc, char** argv, const Program& program,
     return 0;
   }
   gflags::HandleCommandLineHelpFlags();  // --helpfull, --version, ...: exits if given
-  if (argc > 1) {
-    return PrintError(program, "\"" + std::string(argv[1]) +
+  int num_arguments = 0;
+  if (program.argument != nullptr && argc > 1) {
+    *program.argument = argv[1];
+    num_arguments = 1;
+  }
+  if (argc > 1 + num_arguments) {
+    const char* extra = argv[1 + num_arguments];
+    if (num_arguments > 0) {
+      return PrintError(program, "\"" + std::string(extra) + "\" follows \"" +
+                                     *program.argument +
+                                     "\"; one argument that is not a flag is accepted "
+                                     "(see --help)");
+    }
+    return PrintError(program, "\"" + std::string(extra) +
                                    "\" is not a flag; every argument is of the form "
                                    "--flag=value (see --help)");
   }

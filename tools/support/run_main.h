@@ -12,6 +12,8 @@ struct Program {
   std::string summary;      // what it does, one sentence
   std::string usage;        // what follows the name: "--scene FILE --output FILE"
   std::string source_file;  // __FILE__ of main: --help lists the flags of its folder
+  // Receives the one argument that is not a flag, if the program takes one.
+  std::string* argument = nullptr;
 };
 
 // Parses the flags (gflags), then runs `body` and returns its exit code.

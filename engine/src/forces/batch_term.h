@@ -22,11 +22,13 @@
 //   kParameters, kParameterKind[kParameters], kIsShared[kParameters];
 //   int ParameterElement(int p, int e) const;
 //   void Parameters(const Batch&, LoopFlags, VectorLanes* out) const;
+//   std::string UndefinedReason(const double* x) const;  // see force_term.h
 #ifndef DPE_ENGINE_FORCES_BATCH_TERM_H_
 #define DPE_ENGINE_FORCES_BATCH_TERM_H_
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -159,6 +161,10 @@ class BatchTerm final : public ForceTerm {
       }
       ReportAll(first, batch, flags, sink);
     }
+  }
+
+  std::string UndefinedReason(const double* x) const override {
+    return law_.UndefinedReason(x);
   }
 
   bool IsSymmetric() const override { return law_.IsSymmetric(); }

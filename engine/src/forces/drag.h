@@ -27,6 +27,7 @@
 #define DPE_ENGINE_FORCES_DRAG_H_
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "dpe/engine/scene.h"
@@ -60,6 +61,7 @@ class DragLaw {
   bool UsesVelocity() const { return true; }
   bool IsSymmetric() const { return parameters_->drag_coefficient == 0.0; }
   int ParameterElement(int p, int /*e*/) const { return p == 0 ? 0 : p - 1; }
+  std::string UndefinedReason(const double* /*x*/) const { return {}; }
 
   void GatherConstants(int /*first*/, Batch* /*batch*/) const {}
   void Values(const Batch& batch, LoopFlags flags, VectorLanes* phi) const;

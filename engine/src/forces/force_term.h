@@ -10,6 +10,7 @@
 #define DPE_ENGINE_FORCES_FORCE_TERM_H_
 
 #include <Eigen/Core>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -81,6 +82,10 @@ class ForceTerm {
 
   // Reports dphi/dp for each parameter this term owns.
   virtual void VisitParameters(const ForceState& state, ParameterSink* sink) const = 0;
+
+  // Why the force is not defined at positions x (3N), naming the element; empty if it
+  // is. Asked after a failure only.
+  virtual std::string UndefinedReason(const double* /*x*/) const { return {}; }
 
   // True if df/dx and df/dv are symmetric matrices at the current parameters.
   virtual bool IsSymmetric() const { return true; }

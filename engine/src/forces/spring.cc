@@ -1,5 +1,6 @@
 #include "forces/spring.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "linear/vectorize.h"
@@ -173,6 +174,17 @@ SpringLaw::SpringLaw(const ClothObject& object, const ObjectParameters* paramete
   }
   PadToBatches(&springs_);
   PadToBatches(&rest_lengths_);
+}
+
+std::string SpringLaw::UndefinedReason(const double* x) const {
+  for (size_t e = 0; e < elements_.size(); ++e) {
+    const auto [a, b] = elements_[e];
+    if (!std::equal(x + 3 * a, x + 3 * a + 3, x + 3 * b)) continue;
+    return "the ends of spring " + std::to_string(springs_[e]) + ", vertices " +
+           std::to_string(a) + " and " + std::to_string(b) +
+           ", are in the same place, so that its force has no direction";
+  }
+  return {};
 }
 
 void SpringLaw::Values(const Batch& batch, LoopFlags flags, VectorLanes* phi) const {

@@ -22,6 +22,7 @@
 #define DPE_ENGINE_FORCES_SPRING_H_
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "dpe/engine/scene.h"
@@ -54,6 +55,8 @@ class SpringLaw {
   // The damping part makes df/dx non-symmetric.
   bool IsSymmetric() const { return parameters_->damping == 0.0; }
   int ParameterElement(int p, int e) const { return p == 0 ? springs_[e] : 0; }
+  // A spring whose ends coincide has no direction.
+  std::string UndefinedReason(const double* x) const;
 
   void GatherConstants(int first, Batch* batch) const {
     for (int i = 0; i < kBatch; ++i) {

@@ -1,4 +1,5 @@
 // One estimation from files to files: what estimate_cloth does, without its flags.
+// Scenes and targets may also be given in memory.
 #ifndef DPE_ESTIMATION_ESTIMATION_JOB_H_
 #define DPE_ESTIMATION_ESTIMATION_JOB_H_
 
@@ -21,6 +22,7 @@ namespace dpe {
 struct EstimationJob {
   // One per capture, or one for all targets; empty: each target's is made of it.
   std::vector<std::string> scene_paths;
+  std::vector<Scene> scenes;  // in memory, in place of scene_paths
   SceneFromTargetOptions scene_from_target;
   // What to estimate, as ApplyAutoSettings reads it; empty: as the scene says.
   std::string settings;
@@ -31,6 +33,9 @@ struct EstimationJob {
   // motions that the scenes' own parameters make, which then serve to report the
   // deviation and for nothing else.
   std::vector<std::string> target_paths;
+  // In memory, in place of target_paths. Of `target` what is about files is not used,
+  // and neither are marker maps, attachment and rest shapes.
+  std::vector<Observations> targets;
   TargetOptions target;
   TrajectoryFormat trajectory_format = TrajectoryFormat::kCsv;  // of the result
   // To fit, of each capture as many as it has; <= 0: as its scene says, at most the

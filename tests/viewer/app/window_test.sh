@@ -1,0 +1,140 @@
+#!/usr/bin/env bash
+# Drives dpe_viewer in a window as a person does, by xdotool, and reads what it says it
+# shows (--state_file). Starts an X server of its own.
+#
+#   window_test.sh BIN_FOLDER SOURCE_FOLDER
+#
+# Exit code 77 (skipped): something that the test needs is not installed.
+set -uo pipefail
+bin="$1"
+source_folder="$2"
+for tool in Xvfb xvfb-run xdotool; do
+  if ! command -v "$tool" > /dev/null; then
+    echo "skipped: $tool is not installed"
+    exit 77
+  fi
+done
+if [[ -z "${DPE_IN_XVFB:-}" ]]; then
+  if [[ "$("$bin/dpe_viewer" --list_devices 2> /dev/null)" != 0* ]]; then
+    echo "skipped: there is no Vulkan device"
+    exit 77
+  fi
+  DPE_IN_XVFB=1 exec xvfb-run -a -s "-screen 0 1280x1024x24" \
+      bash "${BASH_SOURCE[0]}" "$@"
+fi
+
+scratch="$(mktemp -d)"
+viewer_pid=""
+clean_up() {
+  if [[ -n "$viewer_pid" ]]; then kill "$viewer_pid" 2> /dev/null; fi
+  rm -rf "$scratch"
+}
+trap clean_up EXIT
+state="$scratch/state.jsonl"
+failures=0
+
+field() {  # NAME: its value in the last state: a number, true, "text" or [..]
+  tail -n 1 "$state" |
+      sed -nE "s/.*\"$1\":(\[[^]]*\]|\"[^\"]*\"|[^,}]*)[,}].*/\1/p"
+}
+
+# wait_for WHAT COMMAND...: until the command succeeds.
+wait_for() {
+  local what="$1" k
+  shift
+  for ((k = 0; k < 200; ++k)); do
+    if "$@"; then
+      echo "ok     $what"
+      return
+    fi
+    sleep 0.1
+  done
+  echo "FAILED $what: $(tail -n 1 "$state")"
+  failures=$((failures + 1))
+}
+
+is() { [[ "$(field "$1")" == "$2" ]]; }
+is_not() { [[ "$(field "$1")" != "$2" ]]; }
+above() { awk -v a="$(field "$1")" -v b="$2" 'BEGIN {exit !(a > b)}'; }
+below() { awk -v a="$(field "$1")" -v b="$2" 'BEGIN {exit !(a < b)}'; }
+has_line() { [[ -s "$state" ]]; }
+has_file() { compgen -G "$1" > /dev/null; }
+key() { xdotool key --window "$window" "$1"; }
+
+cd "$scratch" || exit 1
+"$bin/dpe_viewer" "$source_folder/data/side.txt" --paused --validation \
+    --state_file="$state" --size=900x700 > "$scratch/out" 2> "$scratch/err" &
+viewer_pid=$!
+wait_for "a window opens and says what it shows" has_line
+window="$(xdotool search --name 'dpe_viewer - side' | tail -n 1)"
+xdotool windowfocus "$window" 2> /dev/null
+wait_for "it has the size that was asked for" is size "[900,700]"
+wait_for "it begins paused at frame 0" is frame 0
+
+key Right; wait_for "Right goes a frame on" is frame 1
+key Right; wait_for "and another" is frame 2
+key Left; wait_for "Left goes a frame back" is frame 1
+key space; wait_for "Space goes on" is paused false
+wait_for "the cloth moves by itself" above frame 10
+key space; wait_for "Space pauses" is paused true
+key Home; wait_for "Home restarts" is frame 0
+number=1
+for color in plain stiffness mass stretch speed distance; do
+  key "$number"
+  wait_for "$number colours by $color" is color "\"$color\""
+  number=$((number + 1))
+done
+
+yaw="$(field yaw)" pitch="$(field pitch)" distance="$(field distance)"
+target="$(field target)"
+xdotool mousemove --window "$window" 600 400
+sleep 0.2
+xdotool mousedown 1; sleep 0.1
+xdotool mousemove_relative -- 80 30; sleep 0.2
+xdotool mouseup 1
+wait_for "a left drag to the right orbits" below yaw "$yaw"
+wait_for "and down raises the camera" above pitch "$pitch"
+wait_for "but does not pan" is target "$target"
+orbited="$(field yaw)"
+xdotool mousedown 3; sleep 0.1
+xdotool mousemove_relative -- 40 20; sleep 0.2
+xdotool mouseup 3
+wait_for "a right drag pans" is_not target "$target"
+wait_for "but does not orbit" is yaw "$orbited"
+panned="$(field target)"
+xdotool keydown shift; xdotool mousedown 1; sleep 0.1
+xdotool mousemove_relative -- -30 10; sleep 0.2
+xdotool mouseup 1; xdotool keyup shift
+wait_for "so does a drag with Shift" is_not target "$panned"
+wait_for "which does not orbit either" is yaw "$orbited"
+xdotool click 4; wait_for "the wheel comes closer" below distance "$distance"
+closer="$(field distance)"
+xdotool click 5; wait_for "and goes back" above distance "$closer"
+key w; wait_for "W comes closer" below distance "$distance"
+key r; wait_for "R resets the distance" is distance "$distance"
+wait_for "and the direction" is yaw "$yaw"
+wait_for "and the place" is target "$target"
+key s; wait_for "S goes away" above distance "$distance"
+key f; wait_for "F frames the cloth" below distance "$(field distance)"
+key h; wait_for "H shows the keys" is help true
+key h; wait_for "and hides them" is help false
+key p; wait_for "P writes a PNG" has_file "$scratch/dpe_viewer_0001.png"
+xdotool windowsize "$window" 700 500
+wait_for "the picture follows the window's size" is size "[700,500]"
+xdotool windowunmap "$window"; sleep 0.5; xdotool windowmap "$window"; sleep 0.5
+key 2; wait_for "it goes on after it was hidden" is color '"stiffness"'
+key Escape
+wait "$viewer_pid"
+code=$?
+viewer_pid=""
+if [[ "$code" != 0 ]]; then
+  echo "FAILED Esc ends it with exit code 0: $code"
+  failures=$((failures + 1))
+fi
+if [[ -s "$scratch/err" ]]; then
+  echo "FAILED it has nothing to complain about:"
+  cat "$scratch/err"
+  failures=$((failures + 1))
+fi
+echo "$failures failure(s)"
+[[ "$failures" == 0 ]]
