@@ -26,7 +26,7 @@ class ViewerProgramTest : public testing::Test {
     return RunProgram("dpe_viewer", {"--list_devices"}).out.rfind("0", 0) == 0;
   }
   ProgramResult Offscreen(std::vector<std::string> flags) {
-    flags.insert(flags.end(), {scene_, "--offscreen", "--size=160x120"});
+    flags.insert(flags.begin(), {scene_, "--offscreen", "--size=160x120"});
     test::RunProgramOptions options;
     options.working_directory = folder_.path();
     return RunProgram("dpe_viewer", flags, options);
@@ -51,9 +51,9 @@ int Difference(const Image& a, const Image& b) {
 TEST_F(ViewerProgramTest, SaysWhatIsWrongWithItsInput) {
   ExpectRefused(RunProgram("dpe_viewer", {}), "no scene is given");
   ExpectRefused(RunProgram("dpe_viewer", {folder_.File("none.txt")}), "none.txt");
-  test::WriteFile(folder_.File("bad.txt"), "{\"objects\": [{\"vertPos\": 3}]}");
+  test::WriteFile(folder_.File("bad.txt"), "{\"delta\": 0.02, \"objects\": []}");
   ExpectRefused(RunProgram("dpe_viewer", {folder_.File("bad.txt")}),
-                "objects[0].vertPos");
+                "bad.txt: objects: an empty array");
   ExpectRefused(Offscreen({"--color=rainbow"}), "rainbow");
   ExpectRefused(Offscreen({"--color=deviation"}), "--report");
   ExpectRefused(Offscreen({"--size=12"}), "--size: \"12\"");

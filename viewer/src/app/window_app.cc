@@ -26,6 +26,7 @@ namespace {
 // later.
 constexpr int kDrawsAfterEvent = 3;
 constexpr double kIdleSeconds = 1.0;  // nothing is missed: events end the wait
+constexpr double kHiddenSeconds = 0.25;
 
 // Taken to wake the window up, and when it comes and goes: at no other time.
 std::mutex running_mutex;
@@ -94,7 +95,8 @@ class WindowApp {
     while (!session_->wants_quit() && glfwWindowShouldClose(window()) == GLFW_FALSE) {
       WaitForEvents();
       if (session_->Update(glfwGetTime())) draws_left_ = std::max(draws_left_, 1);
-      if (session_->IsMoving()) draws_left_ = std::max(draws_left_, 1);
+      // Of a hidden window nothing says when it can be drawn again but a try.
+      if (session_->IsMoving() || !is_visible_) draws_left_ = std::max(draws_left_, 1);
       if (draws_left_ == 0) continue;
       --draws_left_;
       Draw();
@@ -107,7 +109,7 @@ class WindowApp {
   // With vsync Draw waits for the display; where there is none, this does.
   void WaitForEvents() {
     if (!is_visible_) {
-      glfwWaitEventsTimeout(0.1);
+      glfwWaitEventsTimeout(kHiddenSeconds);
     } else if (draws_left_ == 0 && !session_->IsMoving()) {
       glfwWaitEventsTimeout(kIdleSeconds);
     } else {

@@ -85,7 +85,7 @@ void LiveSource::Run() {
     const double length = scenes_[0].delta / std::max(controls_.speed, 1e-3);
     if (was_running_) {
       const double elapsed = 1e-3 * Milliseconds(now - last_begin_);
-      rate_ = Smooth(rate_, scenes_[0].delta / std::max(elapsed, 1e-9));
+      turn_seconds_ = Smooth(turn_seconds_, elapsed);
     }
     last_begin_ = now;
     was_running_ = true;
@@ -117,7 +117,7 @@ void LiveSource::Publish() {
   frame.restarts = controls_.restarts;
   frame.steps = steps_done_;
   frame.frame_ms = frame_ms_;
-  frame.rate = rate_;
+  frame.rate = turn_seconds_ > 0.0 ? scenes_[0].delta / turn_seconds_ : 0.0;
   frame.failure = failure_;
   frame.motions.resize(simulations_.size());
   for (size_t s = 0; s < simulations_.size(); ++s) {

@@ -83,7 +83,7 @@ class LiveSource {
   // Of the simulation's thread.
   LiveControls controls_;
   long steps_done_ = 0;
-  double frame_ms_ = 0.0, rate_ = 0.0;
+  double frame_ms_ = 0.0, turn_seconds_ = 0.0;
   std::string failure_;
   Clock::time_point due_, last_begin_;
   bool was_running_ = false;
