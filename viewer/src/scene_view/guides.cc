@@ -97,9 +97,10 @@ Lines GroundGrid(const Ball& ball, double level, const glm::vec4& background) {
 
 Lines Axes(const Ball& ball, double level) {
   const auto spacing = static_cast<float>(GridSpacing(ball));
-  const glm::vec3 origin(spacing * std::round((ball.center.x - ball.radius) / spacing),
-                         static_cast<float>(level) + 2e-3f * ball.radius,
-                         spacing * std::round((ball.center.z + ball.radius) / spacing));
+  const glm::vec3 origin(
+      spacing * std::round((ball.center.x - 0.7f * ball.radius) / spacing),
+      static_cast<float>(level) + 2e-3f * ball.radius,
+      spacing * std::round((ball.center.z + 0.7f * ball.radius) / spacing));
   Lines axes;
   axes.width = 3.0f;
   for (int k = 0; k < 3; ++k) {
