@@ -152,8 +152,8 @@ TEST_F(RunExperimentsTest, WithoutSlurmTheSlurmExecutorSaysSo) {
   const ProgramResult result = Run({"--executor=slurm"});
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, AllOf(HasSubstr("squeue was not found"),
-                                HasSubstr("--executor local")));
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("squeue was not found"), HasSubstr("--executor local")));
   EXPECT_FALSE(std::filesystem::exists(count_));
 }
 
