@@ -25,22 +25,22 @@ const std::array<QualityPreset, 4>& QualityPresets() {
        "draft",
        "to see what a scene does",
        {kSymplectic, 8},
-       {kTr, 1}},
+       {kTr, 2}},
       {Quality::kStandard,
        "standard",
        "errors that cannot be seen",
        {kTr, 2, "cg", 1e-5, 1e-4},
-       {kTr, 2}},
+       {kTr, 4}},
       {Quality::kAccurate,
        "accurate",
        "to compare with measurements of a millimetre",
        {kTr, 8, "cg", 1e-5, 1e-6},
-       {kTr, 4}},
+       {kTr, 8}},
       {Quality::kReference,
        "reference",
        "to judge other settings by",
        {kTr, 32, "cg", 1e-5, 1e-6},
-       {kTr, 16}},
+       {kTr, 32}},
   }};
   return presets;
 }
@@ -79,7 +79,7 @@ std::string QualityText(const std::string& name, const Scene& scene) {
 StepSettings SimulationSettings(Quality quality, const Scene& scene) {
   StepSettings settings = PresetOf(quality).simulation;
   if (IsStableAtAnyStep(settings.method)) return settings;
-  const double needed = std::ceil(kPresetFrame / StableStep(scene));
+  const double needed = std::ceil(kPresetFrame / (kStableShare * StableStep(scene)));
   if (needed <= settings.steps) return settings;
   if (needed > kMaxStretch * settings.steps) {
     return SimulationSettings(static_cast<Quality>(static_cast<int>(quality) + 1),

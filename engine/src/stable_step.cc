@@ -1,26 +1,38 @@
 #include "dpe/engine/stable_step.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace dpe {
 namespace {
 
-// Per vertex, the sum of stiffnesses that bounds its row of K, N/m.
+// Per vertex, the largest eigenvalue of the sum that bounds its row of K, N/m.
 Eigen::VectorXd StiffnessBound(const Scene& scene, const ClothObject& cloth) {
   double contact = 0.0;
   for (const Collider& collider : scene.colliders) contact += collider.stiffness;
-  Eigen::VectorXd sum = Eigen::VectorXd::Constant(cloth.num_vertices(), contact);
+  std::vector<Eigen::Matrix3d> sums(cloth.num_vertices(),
+                                    contact * Eigen::Matrix3d::Identity());
   for (int s = 0; s < cloth.num_springs(); ++s) {
     const auto [a, b] = cloth.springs[s];
+    const Eigen::Vector3d u =
+        (cloth.positions.segment<3>(3 * a) - cloth.positions.segment<3>(3 * b))
+            .normalized();
     const bool both_free = cloth.is_fixed[a] == 0 && cloth.is_fixed[b] == 0;
     for (int vertex : {a, b}) {
-      sum[vertex] += (both_free ? 2.0 : 1.0) * cloth.stiffness[s];
+      sums[vertex] += (both_free ? 2.0 : 1.0) * cloth.stiffness[s] * u * u.transpose();
     }
   }
-  return sum;
+  Eigen::VectorXd bound(cloth.num_vertices());
+  for (int i = 0; i < cloth.num_vertices(); ++i) {
+    bound[i] =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sums[i], Eigen::EigenvaluesOnly)
+            .eigenvalues()[2];
+  }
+  return bound;
 }
 
 // Per vertex, what drag takes of its velocity, kg/s.

@@ -216,7 +216,11 @@ void AddTargetNoise(const EstimationJob& job, size_t index, CaptureInput* captur
   // Far from the seeds that a user tries one after the other.
   constexpr std::uint64_t kNextSeed = 0x9E3779B97F4A7C15;
   capture->target = CutFrames(capture->reference, 0, capture->num_frames);
-  capture->target.sigma = job.sigma > 0.0 ? job.sigma : job.noise_sigma;
+  if (job.sigma > 0.0) {
+    capture->target.sigma = job.sigma;
+  } else if (job.noise_sigma > 0.0) {
+    capture->target.sigma = job.noise_sigma;
+  }
   if (job.noise_sigma > 0.0) {
     AddNoise(capture->scene, job.noise_sigma, job.noise_seed + index * kNextSeed,
              &capture->target);

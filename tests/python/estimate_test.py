@@ -137,6 +137,7 @@ def test_markers_between_vertices(cloth):
     observations.add_markers(vertices, weights, times, seen)
     assert observations.num_markers == 6 and observations.num_samples == 6 * 22
     found = dpe.estimate(cloth, observations, frames=24, init="uniform:40")
+    assert found.uncertainty.noise_is_known
     assert found.parameters == pytest.approx([12.0], rel=1e-5)
 
 
@@ -226,24 +227,32 @@ try:
                  max_iterations=100000, frames=60, progress=progress)
 except KeyboardInterrupt as stop:
     r = stop.result
+    print(time.process_time())
     print("stopped", r.termination, r.rms < r.initial_rms, len(r.parameters), flush=True)
 """
 
 
+def processor_time(pid):
+    with open(f"/proc/{pid}/stat") as stat:
+        fields = stat.read().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/stat"), reason="needs /proc")
 def test_ctrl_c_stops_a_fit_within_a_second_with_the_best_so_far():
     process = subprocess.Popen(
         [sys.executable, "-c", INTERRUPTED, DATA / "corners.txt"],
         stdout=subprocess.PIPE, text=True)
     assert process.stdout.readline() == "ready\n"
-    delays = np.random.default_rng().uniform(0.1, 1.0)
-    time.sleep(delays)
-    begin = time.monotonic()
+    time.sleep(np.random.default_rng().uniform(0.1, 1.0))
+    # Processor time: the machine may be busy with other things.
+    before = processor_time(process.pid)
     process.send_signal(signal.SIGINT)
+    after = float(process.stdout.readline())
     line = process.stdout.readline()
-    took = time.monotonic() - begin
     process.wait()
     assert line == f"stopped interrupted True {140 + 726}\n"
-    assert took < 1.0
+    assert after - before < 1.0
 
 
 def test_saving_writes_what_the_program_writes(tmp_path, run_program):

@@ -45,15 +45,17 @@ def test_simulate_equals_the_program_for_other_methods(tmp_path, run_program, cl
     np.testing.assert_allclose(motion.times, 0.02 * np.arange(10), rtol=1e-15)
 
 
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="needs /proc")
 def test_a_trajectory_of_96_by_96_vertices_and_500_frames_is_not_copied():
     """In a process of its own: peak memory is that of the two matrices alone."""
     code = """
-import resource, sys
 import numpy as np
 import dpe
 
+# Of address space: what is resident depends on what else the machine does.
 def peak():
-    return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    with open("/proc/self/status") as status:
+        return 1024 * next(int(l.split()[1]) for l in status if l.startswith("VmPeak"))
 
 scene = dpe.Scene.grid(96, 96, 7.0, pins=[0, 95], damping=0.0, drag=0.0)
 scene.integration_method = "symplectic_euler"
@@ -177,12 +179,18 @@ def test_threads_may_share_a_simulator(cloth):
 def test_ctrl_c_ends_a_simulation():
     scene = small_cloth(24, 24, frames=1000)
     scene.steps_per_frame = 100
-    begin = time.monotonic()
-    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+    sent = []
+
+    def send():
+        sent.append(time.process_time())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(0.3, send)
     timer.start()
     with pytest.raises(KeyboardInterrupt):
         dpe.simulate(scene)
-    assert time.monotonic() - begin < 1.3
+    # Processor time: the machine may be busy with other things.
+    assert time.process_time() - sent[0] < 1.0
 
 
 def test_what_a_signal_handler_raises_comes_through():

@@ -1,9 +1,12 @@
 #include "cloth_picture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
+#include <set>
+#include <utility>
 
 namespace dpe::viewer {
 namespace {
@@ -102,12 +105,16 @@ Surface WavySheet(int side) {
 Lines Wireframe(const Surface& surface, const glm::vec4& color, float width) {
   Lines lines;
   lines.width = width;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;  // each once
   const std::vector<std::uint32_t>& triangles = surface.topology->triangles;
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
     for (int edge = 0; edge < 3; ++edge) {
-      AddSegment(&lines, surface.positions[triangles[i + edge]],
-                 surface.positions[triangles[i + (edge + 1) % 3]], color);
+      edges.insert(std::minmax<std::uint32_t>(triangles[i + edge],
+                                              triangles[i + (edge + 1) % 3]));
     }
+  }
+  for (const auto& [a, b] : edges) {
+    AddSegment(&lines, surface.positions[a], surface.positions[b], color);
   }
   return lines;
 }

@@ -1,6 +1,7 @@
 #include "picture_difference.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
@@ -17,9 +18,19 @@ std::string ReferencePath(const std::string& name) {
   return std::string(DPE_SOURCE_DIR) + "/tests/viewer/references/" + name + ".png";
 }
 
+std::array<double, 256> LinearTable() {
+  std::array<double, 256> table{};
+  for (int i = 0; i < 256; ++i) {
+    const double value = i / 255.0;
+    table[i] =
+        value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  }
+  return table;
+}
+
 double Linear(std::uint8_t srgb) {
-  const double value = srgb / 255.0;
-  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  static const std::array<double, 256> table = LinearTable();
+  return table[srgb];
 }
 
 double LabCurve(double t) {

@@ -51,10 +51,12 @@ void ApplyStepSettings(const StepSettings& settings, Scene* scene,
                        SimulatorOptions* options);
 
 // The preset's settings for a simulation of this scene. Symplectic Euler is unstable
-// beyond a certain step length (StableStep): where it lies below the preset's, the
-// steps are made shorter, and where that takes more than kMaxStretch times as many,
-// the next preset, which is stable at any step, takes over.
+// beyond a certain step length: where kStableShare of what is stable at the start
+// (StableStep) lies below the preset's, the steps are made shorter, and where that
+// takes more than kMaxStretch times as many, the next preset, which is stable at any
+// step, takes over.
 constexpr int kMaxStretch = 4;
+constexpr double kStableShare = 0.7;
 StepSettings SimulationSettings(Quality quality, const Scene& scene);
 
 // "Quality draft: symplectic_euler, 8 steps per frame", of a scene that has its

@@ -81,9 +81,9 @@ class Sensitivity {
   // What kAuto would choose: the method with less predicted work.
   JacobianMethod CheaperMethod(const std::vector<StateDerivative>& derivatives) const;
 
-  // False after a derivative pass whose linear systems could not be solved, whose result
-  // is not finite (derivatives of an unstable motion grow with every step), or that was
-  // interrupted (SimulatorOptions::interrupted).
+  // False after a derivative pass whose linear systems could not be solved, whose
+  // result is not finite (derivatives of an unstable motion grow with every step), or
+  // that was interrupted (SimulatorOptions::interrupted).
   bool ok() const { return ok_; }
 
  private:

@@ -16,13 +16,15 @@ namespace dpe {
 // + (1 - h alpha - h beta w^2), whose roots are in the unit circle exactly if
 //   2 h alpha + h (h + 2 beta) w^2 <= 4.
 // The frequencies are not computed but bounded. From x^T K x = sum k (u (x_a - x_b))^2
-// and |x_a - x_b|^2 <= 2 (|x_a|^2 + |x_b|^2), or |x_a|^2 where b is fixed,
-//   w^2 <= max over vertices a of (1/m_a) sum over its springs of (2 or 1) k,
-// and a collider adds its stiffness, a triangle in the wind at most
-//   alpha_a <- alpha_a + (C/3) A |n|^2 / m_a   (law "authored"; without |n|^2 else).
-// The condition then holds for each vertex by itself. It is sufficient, not necessary:
-// on the legacy cloths the true limit is about 1.8 times as long. It is that of springs
-// that are not compressed, and of triangles that have not grown.
+// with the springs' directions u, and (u (x_a - x_b))^2 <= 2 (u x_a)^2 + 2 (u x_b)^2,
+// or (u x_a)^2 where b is fixed,
+//   w^2 <= max over vertices a of (1/m_a) lambda_max(sum over its springs of
+//          (2 or 1) k u u^T),
+// to which a collider adds its stiffness; and a triangle in the wind adds at most
+//   (C/3) A |n|^2 / m_a   (law "authored"; without |n|^2 else)
+// to alpha. The condition then holds for each vertex by itself. It is sufficient for
+// the cloth as it lies at the start: not where springs later come to lie otherwise, are
+// compressed, or triangles have grown. Whoever relies on it leaves some room.
 double StableStep(const Scene& scene);
 
 }  // namespace dpe
