@@ -74,6 +74,9 @@ TEST_F(SlurmExperimentsTest, LongKilledAndStartedAgainItLosesAndRepeatsNothing) 
   EXPECT_THAT(again.out, HasSubstr("10 done"));
   EXPECT_EQ(Runs().size(), 10u);
   for (const auto& [id, count] : Runs()) EXPECT_EQ(count, 1) << id;
+  // Three arrays of at most four; nothing was submitted a second time.
+  EXPECT_TRUE(std::filesystem::exists(output_ + "/slurm/tasks_2.txt"));
+  EXPECT_FALSE(std::filesystem::exists(output_ + "/slurm/tasks_3.txt"));
 }
 
 TEST_F(SlurmExperimentsTest, LongTasksThatVanishAreSubmittedAgainAndThenARowSaysSo) {

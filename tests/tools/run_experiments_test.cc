@@ -2,16 +2,34 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include <cmath>
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "tools/run_experiments_support.h"
 
 namespace dpe::test {
 namespace {
+
+#ifdef __linux__
+// How many processes have a text in their command line.
+int CountProcesses(const std::string& text) {
+  int count = 0;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
+    std::ifstream file(entry.path() / "cmdline");
+    std::ostringstream command;
+    if (file) command << file.rdbuf();
+    count += command.str().find(text) != std::string::npos;
+  }
+  return count;
+}
+#endif
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -111,6 +129,30 @@ TEST_F(RunExperimentsTest, KilledAndStartedAgainItLosesAndRepeatsNothing) {
   // kill.
   for (const auto& [id, count] : after) EXPECT_LE(count, 1 + kills) << id;
 }
+
+#ifdef __linux__
+// Or else a campaign that was killed would go on in the background, and run beside the
+// one that is started to replace it.
+TEST_F(RunExperimentsTest, JobsDieWithTheCampaignThatIsKilled) {
+  WriteJobs({CountedJob("a", "\"sleep\":300"), CountedJob("b", "\"action\":\"loop\"")});
+  std::thread run([&] {
+    RunProgramOptions options;
+    options.timeout = 3.0;
+    EXPECT_EQ(Run({"--jobs=2"}, options).exit_code, -SIGKILL);
+  });
+  int most = 0;
+  for (int i = 0; i < 25; ++i) {
+    most = std::max(most, CountProcesses(output_ + "/rows/"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  run.join();
+  EXPECT_EQ(most, 2);
+  for (int i = 0; i < 50 && CountProcesses(output_ + "/rows/") > 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  EXPECT_EQ(CountProcesses(output_ + "/rows/"), 0);
+}
+#endif
 
 TEST_F(RunExperimentsTest, InterruptedItSaysHowToGoOn) {
   WriteJobs({CountedJob("a", ""), CountedJob("b", "\"sleep\":30")});

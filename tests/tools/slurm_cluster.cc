@@ -23,8 +23,9 @@ namespace {
 
 using experiments::RunCommand;
 
-// Daemons are not in the PATH of every user.
-std::string DaemonPath(const std::string& name) {
+// Daemons are not in the PATH of every user, and without a configuration none of the
+// commands answers.
+std::string ProgramPath(const std::string& name) {
   for (const char* folder : {"/usr/sbin/", "/usr/local/sbin/", "/usr/bin/"}) {
     if (access((folder + name).c_str(), X_OK) == 0) return folder + name;
   }
@@ -64,11 +65,8 @@ std::string KeyBytes() {
 
 std::string SlurmCluster::Obstacle() {
   if (getuid() != 0) return "a Slurm cluster can be started by root only";
-  for (const char* daemon : {"munged", "slurmctld", "slurmd"}) {
-    if (DaemonPath(daemon).empty()) return std::string(daemon) + " is not installed";
-  }
-  if (RunCommand({"sbatch", "--version"}).exit_code != 0) {
-    return "sbatch is not installed";
+  for (const char* program : {"munged", "slurmctld", "slurmd", "sbatch", "squeue"}) {
+    if (ProgramPath(program).empty()) return std::string(program) + " is not installed";
   }
   return "";
 }
@@ -84,15 +82,15 @@ SlurmCluster::SlurmCluster(int max_array_size) {
   chmod(folder_.File("munge/key").c_str(), 0600);
   WriteConfiguration(max_array_size);
   setenv("SLURM_CONF", folder_.File("slurm.conf").c_str(), 1);
-  Start({DaemonPath("munged"), "--foreground", "--force",
+  Start({ProgramPath("munged"), "--foreground", "--force",
          "--socket=" + folder_.File("munge.sock"),
          "--key-file=" + folder_.File("munge/key"),
          "--log-file=" + folder_.File("munge/log"),
          "--pid-file=" + folder_.File("munge/pid"),
          "--seed-file=" + folder_.File("munge/seed")});
-  Start({DaemonPath("slurmctld"), "-D", "-f", folder_.File("slurm.conf")});
-  Start(
-      {DaemonPath("slurmd"), "-D", "-f", folder_.File("slurm.conf"), "-N", HostName()});
+  Start({ProgramPath("slurmctld"), "-D", "-f", folder_.File("slurm.conf")});
+  Start({ProgramPath("slurmd"), "-D", "-f", folder_.File("slurm.conf"), "-N",
+         HostName()});
   try {
     WaitForNode();
   } catch (...) {
