@@ -122,6 +122,28 @@ TEST_F(SceneApiTest, RateIsRelativeToRealTime) {
   EXPECT_EQ(dpe_scene_set_rate(scene_, std::nan("")), DPE_ERROR_ARGUMENT);
 }
 
+// A scene as fast as possible computes frames without a pause; whoever calls gets a
+// turn.
+TEST_F(SceneApiTest, NobodyWaitsForAFastScene) {
+  ASSERT_DPE_OK(dpe_scene_set_rate(scene_, 0.0));
+  ASSERT_DPE_OK(dpe_scene_start(scene_));
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(dpe_scene_step(scene_, 1), DPE_ERROR_STATE);
+    dpe_scene_info info;
+    EXPECT_DPE_OK(dpe_scene_get_info(scene_, &info));
+  }
+  // Nor for one that another thread steps.
+  ASSERT_DPE_OK(dpe_scene_pause(scene_));
+  dpe_scene_info before, info;
+  ASSERT_DPE_OK(dpe_scene_get_info(scene_, &before));
+  std::thread stepper([this] { dpe_scene_step(scene_, 1000000000); });
+  do {
+    ASSERT_EQ(dpe_scene_get_info(scene_, &info), DPE_OK);
+  } while (info.frame < before.frame + 20);
+  EXPECT_DPE_OK(dpe_scene_stop(scene_));
+  stepper.join();
+}
+
 TEST_F(SceneApiTest, CopiesOnlyWhatIsNew) {
   const int n = expected_.objects[0].num_vertices();
   const ReadPositions first = Read(scene_, 0, n);

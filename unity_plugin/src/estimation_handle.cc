@@ -41,7 +41,7 @@ void EstimationHandle::Close() {
   }
   if (!thread.joinable()) return;
   if (thread.get_id() == std::this_thread::get_id()) {
-    thread.detach();
+    HandleTable::Global().Adopt(std::move(thread));
   } else {
     thread.join();
   }

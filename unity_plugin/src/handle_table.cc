@@ -82,6 +82,23 @@ void HandleTable::CloseAll() {
     }
   }
   for (const auto& object : objects) object->Close();
+  std::vector<std::thread> adopted;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    adopted.swap(adopted_);
+  }
+  for (std::thread& thread : adopted) {
+    if (thread.get_id() == std::this_thread::get_id()) {
+      Adopt(std::move(thread));
+    } else {
+      thread.join();
+    }
+  }
+}
+
+void HandleTable::Adopt(std::thread thread) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  adopted_.push_back(std::move(thread));
 }
 
 int HandleTable::size() const {

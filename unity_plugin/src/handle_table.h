@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "dpe/c/types.h"
@@ -65,8 +66,13 @@ class HandleTable {
   // this kind.
   bool Destroy(dpe_handle handle, HandleKind kind);
 
+  // Also joins the threads that were adopted, but the caller's own.
   void CloseAll();
   int size() const;
+
+  // Takes a thread that cannot be joined by its object, which it destroyed itself. It
+  // is joined later, so that none runs on while the library is unloaded.
+  void Adopt(std::thread thread);
 
   static HandleKind KindOf(dpe_handle handle) {
     return static_cast<HandleKind>(handle >> 56);
@@ -85,6 +91,7 @@ class HandleTable {
   mutable std::mutex mutex_;
   std::vector<Slot> slots_;
   std::vector<int> free_;  // with room for all slots
+  std::vector<std::thread> adopted_;
 };
 
 }  // namespace dpe::c

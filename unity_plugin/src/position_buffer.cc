@@ -6,7 +6,8 @@
 
 namespace dpe::c {
 
-PositionBuffer::PositionBuffer(const std::vector<int>& sizes) {
+PositionBuffer::PositionBuffer(const std::vector<int>& sizes)
+    : num_objects_(static_cast<int>(sizes.size())) {
   for (int size : sizes) back_.emplace_back(size);
   front_ = back_;
 }

@@ -25,7 +25,7 @@ class PositionBuffer {
   // @param sizes  coordinates of each object
   explicit PositionBuffer(const std::vector<int>& sizes);
 
-  int num_objects() const { return static_cast<int>(front_.size()); }
+  int num_objects() const { return num_objects_; }
 
   // One writer at a time: the next state of an object, 3N, m ...
   void Write(int object, const double* positions);
@@ -37,6 +37,7 @@ class PositionBuffer {
   void Copy(int object, PositionReader* reader) const;
 
  private:
+  const int num_objects_;
   std::vector<std::vector<float>> back_;  // of the writer
   mutable std::mutex mutex_;              // guards what follows
   std::vector<std::vector<float>> front_;

@@ -83,8 +83,7 @@ void SceneHandle::Step(int num_frames) {
   Require(num_frames >= 0, "the number of frames is negative");
   std::uint64_t stops = 0;
   for (int f = 0; f < num_frames; ++f) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    wake_.wait(lock, [this] { return num_waiting_ == 0; });
+    const Access access(this);
     RequireOpen();
     if (f == 0) stops = stops_;
     if (state_ == DPE_RUNNING) {
@@ -140,14 +139,16 @@ void SceneHandle::SetRate(double rate) {
 
 void SceneHandle::Run() {
   constexpr auto kMostBehind = std::chrono::milliseconds(250);
-  std::unique_lock<std::mutex> lock(mutex_);
+  std::unique_lock<FairMutex> lock(mutex_);
   while (!closing_) {
-    if (state_ != DPE_RUNNING || num_waiting_ > 0) {
+    if (state_ != DPE_RUNNING) {
       wake_.wait(lock);
       continue;
     }
-    if (Clock::now() < due_) {
-      wake_.wait_until(lock, due_);
+    // A copy: it is read while the mutex is not held, and the rate may be changed then.
+    const Clock::time_point due = due_;
+    if (Clock::now() < due) {
+      wake_.wait_until(lock, due);
       continue;
     }
     Advance();
@@ -155,6 +156,9 @@ void SceneHandle::Run() {
     due_ += FrameTime();
     const auto now = Clock::now();
     if (rate_ == 0.0 || now - due_ > kMostBehind) due_ = now;
+    // Those who have waited go first.
+    lock.unlock();
+    lock.lock();
   }
 }
 

@@ -1,10 +1,9 @@
 // A scene and its thread.
 //
-// One mutex guards the simulation and the state; whoever computes a frame holds it. Who
-// wants to change something announces itself first (num_waiting_), and the thread lets
-// all such go ahead between two frames: however fast frames follow each other, nobody
-// waits for more than one. The thread is made when the scene is first started, and ends
-// with it.
+// One mutex guards the simulation and the state; whoever computes a frame holds it, and
+// lets go of it after each. It is a fair one: however fast frames follow each other,
+// who wants to change something waits for one frame and for those who came before. The
+// thread is made when the scene is first started, and ends with it.
 #ifndef DPE_UNITY_SCENE_HANDLE_H_
 #define DPE_UNITY_SCENE_HANDLE_H_
 
@@ -18,6 +17,7 @@
 
 #include "call.h"
 #include "dpe/c/scene.h"
+#include "fair_mutex.h"
 #include "handle_table.h"
 #include "position_buffer.h"
 #include "scene_model.h"
@@ -56,14 +56,10 @@ class SceneHandle : public HandleObject {
  private:
   using Clock = std::chrono::steady_clock;
 
-  // The mutex, ahead of the thread.
+  // The mutex, between two frames; wakes the thread afterwards.
   class Access {
    public:
-    explicit Access(SceneHandle* scene) : scene_(scene) {
-      ++scene_->num_waiting_;
-      scene_->mutex_.lock();
-      --scene_->num_waiting_;
-    }
+    explicit Access(SceneHandle* scene) : scene_(scene) { scene_->mutex_.lock(); }
     ~Access() {
       scene_->mutex_.unlock();
       scene_->wake_.notify_all();
@@ -86,9 +82,8 @@ class SceneHandle : public HandleObject {
   const std::string warnings_;
   std::atomic<bool> closing_{false};
   std::atomic<bool> interrupted_{false};  // a frame that is being computed is given up
-  std::atomic<int> num_waiting_{0};
-  std::mutex mutex_;  // guards all that follows but positions_
-  std::condition_variable wake_;
+  FairMutex mutex_;                       // guards all that follows but positions_
+  std::condition_variable_any wake_;
   SceneModel model_;
   int state_ = DPE_STOPPED;
   std::uint64_t stops_ = 0;  // how often it was stopped

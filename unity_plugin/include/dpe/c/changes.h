@@ -1,6 +1,6 @@
 /* What may change in a scene, also while it runs. A change takes effect with the frame
- * that follows; the call may wait for the frame that is being computed, never for more.
- * dpe/dpe_c.h has the rules. */
+ * that follows; the call may wait for the frame that is being computed, and for calls
+ * that came before it. dpe/dpe_c.h has the rules. */
 #ifndef DPE_C_CHANGES_H_
 #define DPE_C_CHANGES_H_
 
