@@ -1,0 +1,96 @@
+#include "experiments/stability/stability_plots.h"
+
+#include <algorithm>
+#include <string>
+
+#include "dpe/engine/scene.h"
+#include "experiments/stability/energy_history.h"
+#include "experiments/stability/stability_report.h"
+#include "experiments/stability/stability_scene.h"
+
+namespace dpe::experiments {
+namespace {
+
+// In plots on a logarithmic axis, what is zero stands here: below what rounding leaves.
+constexpr double kNothing = 1e-17;
+// The Krylov solver's marks stand this much above the direct one's.
+constexpr double kAbove = 0.25;
+
+Series Marks(const std::string& label) {
+  Series series;
+  series.label = label;
+  series.line = false;
+  return series;
+}
+
+// One mark per cell: method against value, a series for each result.
+Plot AxisPlot(const std::vector<Row>& rows, const StabilityAxis& axis) {
+  Plot plot;
+  plot.name = "stability_" + axis.name;
+  plot.title = "What came of each integrator: " + axis.label;
+  plot.x_label = axis.label;
+  plot.y_label = "integrationMethod (a little higher: solver cg)";
+  plot.log_x = true;
+  for (const char* result : {"accurate", "inaccurate", "undecided", "blown_up",
+                             "failed", "refused", "crashed", "timed_out"}) {
+    Series series = Marks(result);
+    for (const Row& row : rows) {
+      if (row.Text("kind", "") != "stability" || row.Text("axis", "") != axis.name ||
+          ResultOf(row) != result) {
+        continue;
+      }
+      const double value = row.Number("value", 0.0);
+      if (value <= 0.0) continue;  // has no place on a logarithmic axis
+      series.x.push_back(value);
+      series.y.push_back(row.Integer("integrator", 0) +
+                         (row.Text("solver", "") == "cg" ? kAbove : 0.0));
+    }
+    if (!series.x.empty()) plot.series.push_back(series);
+  }
+  return plot;
+}
+
+// @param column  of the rows of kind "energy"
+Plot HistoryPlot(const std::vector<Row>& rows, const std::string& column,
+                 const std::string& title, const std::string& label) {
+  Plot plot;
+  plot.name = "stability_" + column;
+  plot.title = title;
+  plot.x_label = "time (s)";
+  plot.y_label = label;
+  plot.log_y = true;
+  for (const Row& row : rows) {
+    if (row.Text("kind", "") != "energy") continue;
+    Series series;
+    series.label = IntegrationMethodName(
+        static_cast<IntegrationMethod>(row.Integer("integrator", 0)));
+    series.marks = false;
+    series.x = ParseSamples(row.Text("time", ""));
+    series.y = ParseSamples(row.Text(column, ""));
+    for (double& y : series.y) y = std::max(y, kNothing);
+    plot.series.push_back(series);
+  }
+  return plot;
+}
+
+}  // namespace
+
+std::vector<Plot> StabilityPlots(const std::vector<Row>& rows) {
+  std::vector<Plot> plots;
+  for (const char* axis_name : {"stiffness", "mass", "mass_ratio", "delta", "damping",
+                                "wind", "drag", "plane", "sphere"}) {
+    for (const StabilityAxis& axis : StabilityAxes()) {
+      if (axis.name == axis_name) plots.push_back(AxisPlot(rows, axis));
+    }
+  }
+  plots.push_back(HistoryPlot(rows, "energy", "Energy of an undamped free cloth",
+                              "energy / energy at the start"));
+  plots.push_back(HistoryPlot(rows, "momentum", "Momentum of an undamped free cloth",
+                              "|P - P(0)| / sum m |v(0)|"));
+  plots.push_back(HistoryPlot(rows, "angular_momentum",
+                              "Angular momentum of an undamped free cloth",
+                              "|L - L(0)| / |L(0)|"));
+  return plots;
+}
+
+}  // namespace dpe::experiments
