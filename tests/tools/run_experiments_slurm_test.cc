@@ -99,6 +99,14 @@ TEST_F(SlurmExperimentsTest, LongTasksThatVanishAreSubmittedAgainAndThenARowSays
   EXPECT_EQ(Runs(), (std::map<std::string, int>{{"stays", 1}, {"vanishes", 2}}));
 }
 
+// Killed alone, by the system for want of memory say, it is a row like any other.
+TEST_F(SlurmExperimentsTest, LongAJobThatIsKilledWhileItsTaskLivesIsARow) {
+  WriteJobs({CountedJob("a", "\"action\":\"kill\"")});
+  RunSlurm();
+  EXPECT_THAT(TimelessTable(), HasSubstr("crashed,\"SIGKILL (killed from outside"));
+  EXPECT_EQ(Runs().at("a"), 1);
+}
+
 TEST_F(SlurmExperimentsTest, LongInterruptedItCancelsItsArrays) {
   WriteJobs({CountedJob("a", "\"sleep\":600"), CountedJob("b", "\"sleep\":600")});
   RunProgramOptions options;

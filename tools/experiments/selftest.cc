@@ -19,14 +19,16 @@ void Act(const std::string& action) {
   if (action == "throw") throw SceneError("thrown as asked for");
   // A null pointer is a thing that compilers and sanitizers have opinions about.
   if (action == "segfault") raise(SIGSEGV);
+  if (action == "kill") raise(SIGKILL);
   if (action == "abort") std::abort();
   if (action == "exit") _exit(7);
   if (action == "loop") {
     while (true) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  throw SceneError("action: \"" + action +
-                   "\" is not accepted; expected none, throw, segfault, abort, exit "
-                   "or loop");
+  throw SceneError(
+      "action: \"" + action +
+      "\" is not accepted; expected none, throw, segfault, kill, abort, exit "
+      "or loop");
 }
 
 Record Run(const Job& job) {

@@ -5,8 +5,8 @@
 //               counted)
 //   sleep       wait so many seconds
 //   value       report its square as "square"
-//   action      "none", "throw", "segfault", "abort", "loop" (for ever), "exit" (code 7
-//               without a result)
+//   action      "none", "throw", "segfault", "kill", "abort", "loop" (for ever),
+//               "exit" (code 7 without a result)
 #ifndef DPE_TOOLS_EXPERIMENTS_SELFTEST_H_
 #define DPE_TOOLS_EXPERIMENTS_SELFTEST_H_
 

@@ -27,6 +27,9 @@ namespace fs = std::filesystem;
 // looked for is seen within seconds.
 constexpr double kRowDelay = 10.0;
 
+// Within it Slurm ends the watching process of a task whose job it has ended.
+constexpr double kKilledDelay = 5.0;
+
 // FNV-1a, 64 bits: the same wherever the program is compiled.
 std::string KeyOf(const std::string& dir) {
   std::uint64_t hash = 14695981039346656037u;
@@ -242,7 +245,8 @@ int RunSlurmTask(const std::string& program, const std::string& dir,
   const RowStore store(dir);
   const Job job = ReadJob(dir, ids[index]);
   if (store.Find(job)) return 0;
-  Worker worker(job, {program, fs::current_path().string(), timeout_s}, store);
+  Worker worker(job, {program, fs::current_path().string(), timeout_s, kKilledDelay},
+                store);
   while (!worker.Poll()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   return 0;
 }

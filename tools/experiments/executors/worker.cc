@@ -16,6 +16,7 @@
 #include <fstream>
 #include <new>
 #include <sstream>
+#include <thread>
 #include <vector>
 
 #include "dpe/engine/scene.h"
@@ -98,13 +99,14 @@ double Seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-Record UsageRecord(const rusage& usage) {
+Record UsageRecord(double wall_s, const rusage& usage) {
 #ifdef __APPLE__
   constexpr double kPerMib = 1024.0 * 1024.0;  // counted in bytes there
 #else
   constexpr double kPerMib = 1024.0;
 #endif
   Record record;
+  record.Set("wall_s", wall_s);
   record.Set("cpu_s", Seconds(usage.ru_utime) + Seconds(usage.ru_stime));
   record.Set("peak_mib", static_cast<double>(usage.ru_maxrss) / kPerMib);
   return record;
@@ -185,7 +187,13 @@ bool Worker::Poll() {
   if (ended != process_) return false;
   has_ended_ = true;
   kill(-process_, SIGKILL);  // what it may have left behind
-  Finish(status, UsageRecord(usage));
+  const Record measured = UsageRecord(Elapsed(), usage);
+  if (!is_over_time_ && WIFSIGNALED(status) &&
+      (WTERMSIG(status) == SIGKILL || WTERMSIG(status) == SIGTERM)) {
+    std::this_thread::sleep_for(
+        std::chrono::duration<double>(settings_.killed_delay_s));
+  }
+  Finish(status, measured);
   return true;
 }
 
@@ -193,7 +201,6 @@ void Worker::Finish(int status, const Record& usage) {
   std::ostringstream timeout;
   if (is_over_time_) timeout << "killed after " << settings_.timeout_s << " s";
   result_ = ReadResult(status, result_path_, timeout.str());
-  result_.Set("wall_s", Elapsed());
   for (const auto& [key, value] : usage.values()) result_.Set(key, value);
   store_.Write({job_, result_, ThisMachine()});
   std::error_code ignored;

@@ -17,6 +17,10 @@ struct WorkerSettings {
   std::string program;      // absolute path of this program
   std::string working_dir;  // in which jobs run
   double timeout_s = 0.0;   // then a job is killed; 0: never
+  // s to wait before the row of a job is written that was killed from outside. What
+  // ends a job and the process that watches it (a scheduler that cancels or preempts,
+  // or a node that goes down) may end the job first, and that is no result of it.
+  double killed_delay_s = 0.0;
 };
 
 // The program is started once more as `PROGRAM --internal_job DIR ID RESULT_FILE`. The
@@ -42,7 +46,7 @@ class Worker {
 
  private:
   double Elapsed() const;
-  // @param usage  cpu_s and peak_mib
+  // @param usage  wall_s, cpu_s and peak_mib
   void Finish(int status, const Record& usage);
 
   const Job job_;
