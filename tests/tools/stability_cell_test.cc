@@ -19,8 +19,8 @@ namespace {
 
 using testing::HasSubstr;
 
-Record Run(const std::string& axis, double value, int method,
-           const std::string& solver = "cholesky") {
+Record RunCell(const std::string& axis, double value, int method,
+               const std::string& solver = "cholesky") {
   return RunStabilityCell(
       {axis, value, static_cast<IntegrationMethod>(method), solver});
 }
@@ -28,7 +28,7 @@ Record Run(const std::string& axis, double value, int method,
 TEST(StabilityCellTest, AtTheBaseAllMethodsAreAccurateAndTheirGradientsRight) {
   for (int method = 0; method < 5; ++method) {
     SCOPED_TRACE(method);
-    const Record row = Run("stiffness", 50.0, method);
+    const Record row = RunCell("stiffness", 50.0, method);
     EXPECT_EQ(row.Text("result", ""), "accurate");
     EXPECT_EQ(row.Text("gradient", ""), "right") << row.Text("gradient_why", "");
     EXPECT_GE(row.Integer("directions_right", 0), 6);
@@ -42,7 +42,7 @@ TEST(StabilityCellTest, AtTheBaseAllMethodsAreAccurateAndTheirGradientsRight) {
 
 TEST(StabilityCellTest, BeyondTheirLimitExplicitMethodsFailByName) {
   for (int method : {0, 1}) {
-    const Record row = Run("stiffness", 1e6, method);
+    const Record row = RunCell("stiffness", 1e6, method);
     EXPECT_EQ(row.Text("result", ""), "failed");
     EXPECT_THAT(row.Text("why", ""), HasSubstr("is unstable for steps h longer"));
     EXPECT_GT(row.Integer("failed_frame", -1), 0);
@@ -51,7 +51,7 @@ TEST(StabilityCellTest, BeyondTheirLimitExplicitMethodsFailByName) {
     EXPECT_LT(row.Number("limit", 1.0), 1e-4);
     EXPECT_EQ(row.Text("gradient", "none"), "");
   }
-  const Record within = Run("stiffness", 1e3, 1);
+  const Record within = RunCell("stiffness", 1e3, 1);
   EXPECT_EQ(within.Text("prediction", ""), "stable");
   EXPECT_EQ(within.Text("agreement", ""), "agrees");
   EXPECT_GT(within.Number("limit", 0.0), 0.002);
@@ -61,7 +61,7 @@ TEST(StabilityCellTest, ImplicitMethodsGoOnWhereExplicitOnesFail) {
   for (int method : {2, 3, 4}) {
     for (const char* solver : {"cholesky", "cg"}) {
       SCOPED_TRACE(std::to_string(method) + solver);
-      const Record row = Run("stiffness", 1e6, method, solver);
+      const Record row = RunCell("stiffness", 1e6, method, solver);
       EXPECT_EQ(row.Text("result", ""), "accurate");
       EXPECT_EQ(row.Text("gradient", ""), "right") << row.Text("gradient_why", "");
     }
@@ -70,7 +70,7 @@ TEST(StabilityCellTest, ImplicitMethodsGoOnWhereExplicitOnesFail) {
 
 TEST(StabilityCellTest, ALongStepIsStableButInaccurate) {
   for (int method : {2, 3, 4}) {
-    const Record row = Run("delta", 1.0, method);
+    const Record row = RunCell("delta", 1.0, method);
     EXPECT_EQ(row.Text("result", ""), "inaccurate") << method;
     EXPECT_GT(row.Number("error", 0.0), 0.05);
     EXPECT_NE(row.Text("gradient", ""), "wrong") << row.Text("gradient_why", "");
@@ -79,7 +79,7 @@ TEST(StabilityCellTest, ALongStepIsStableButInaccurate) {
 
 TEST(StabilityCellTest, VerticesThatMeetAreNamed) {
   for (int method : {0, 1, 2, 3}) {
-    const Record row = Run("coincident", 0.0, method);
+    const Record row = RunCell("coincident", 0.0, method);
     EXPECT_EQ(row.Text("result", ""), "failed");
     EXPECT_THAT(row.Text("why", ""), HasSubstr("the ends of spring 0"));
   }
@@ -87,14 +87,14 @@ TEST(StabilityCellTest, VerticesThatMeetAreNamed) {
 
 TEST(StabilityCellTest, ATriangleThatCollapsesIsAKinkAndNotAWrongDerivative) {
   for (int method = 0; method < 5; ++method) {
-    const Record row = Run("collapse_unit", 0.0, method);
+    const Record row = RunCell("collapse_unit", 0.0, method);
     EXPECT_EQ(row.Text("result", ""), "accurate") << method;
     EXPECT_NE(row.Text("gradient", ""), "wrong") << row.Text("gradient_why", "");
   }
 }
 
 TEST(StabilityCellTest, WhatDifferencesCannotSeeIsNotCalledRight) {
-  const Record row = Run("stiffness", 1e-6, 3);
+  const Record row = RunCell("stiffness", 1e-6, 3);
   EXPECT_EQ(row.Text("gradient", ""), "not decidable");
   EXPECT_THAT(row.Text("gradient_why", ""), HasSubstr("stiffness: its influence"));
   EXPECT_EQ(row.Integer("directions_undecidable", 0), 1);
@@ -103,14 +103,15 @@ TEST(StabilityCellTest, WhatDifferencesCannotSeeIsNotCalledRight) {
 
 TEST(StabilityCellTest, FarFromTheOriginTheMotionIsTheSame) {
   for (int method : {1, 3}) {
-    const Record near = Run("stiffness", 50.0, method), far = Run("shift", 1e6, method);
+    const Record near = RunCell("stiffness", 50.0, method),
+                 far = RunCell("shift", 1e6, method);
     EXPECT_EQ(far.Text("result", ""), "accurate");
     EXPECT_NEAR(far.Number("error", 1.0), near.Number("error", 0.0), 1e-4);
   }
 }
 
 TEST(StabilityCellTest, AnAxisThatThereIsNotIsRefused) {
-  const Record row = Run("colour", 1.0, 3);
+  const Record row = RunCell("colour", 1.0, 3);
   EXPECT_EQ(row.Text("result", ""), "refused");
   EXPECT_THAT(row.Text("why", ""), HasSubstr("\"colour\""));
 }
