@@ -3,13 +3,18 @@
 #include <algorithm>
 #include <utility>
 
-#include "forces/collider.h"
 #include "forces/drag.h"
 #include "forces/gravity.h"
 #include "forces/spring.h"
 #include "linear/ordering.h"
 
 namespace dpe {
+namespace {
+
+// A collider without stiffness is none.
+bool Pushes(const Collider& collider) { return collider.stiffness != 0.0; }
+
+}  // namespace
 
 ObjectSystem::ObjectSystem(const Scene& scene, int object,
                            const ParameterLayout& layout, Timings* timings)
@@ -78,10 +83,33 @@ void ObjectSystem::AddForceTerms(const Scene& scene, const ClothObject& cloth) {
   if (cloth.drag_coefficient != 0.0 || cloth.estimate_drag) {
     add(DragTerm(DragLaw(cloth, scene.aerodynamics, &parameters_)));
   }
+  AddColliders(scene, cloth);
+}
+
+void ObjectSystem::AddColliders(const Scene& scene, const ClothObject& cloth) {
+  if (free_vertices_.empty()) return;
   for (const Collider& collider : scene.colliders) {
-    if (collider.stiffness == 0.0) continue;
-    add(ColliderTerm(ColliderKernel(cloth, collider)));
+    if (!Pushes(collider)) continue;
+    auto term = std::make_unique<ColliderTerm>(ColliderKernel(cloth, collider));
+    colliders_.push_back(term.get());
+    terms_.push_back(std::move(term));
   }
+}
+
+void ObjectSystem::SetColliders(const Scene& scene) {
+  const std::vector<Collider>& given = scene.colliders;
+  if (colliders_.size() == std::count_if(given.begin(), given.end(), Pushes)) {
+    auto term = colliders_.begin();
+    for (const Collider& collider : given) {
+      if (Pushes(collider)) (*term++)->mutable_kernel()->SetCollider(collider);
+    }
+    return;
+  }
+  terms_.resize(terms_.size() - colliders_.size());
+  colliders_.clear();
+  // They couple no vertices, so the pattern is as it was.
+  AddColliders(scene, scene.objects[object_]);
+  for (ColliderTerm* term : colliders_) term->BindPattern(pattern_, node_of_vertex_);
 }
 
 void ObjectSystem::SetParameters(const Scene& scene) {
@@ -109,6 +137,13 @@ void ObjectSystem::SetPrescribedPositions(int step, double* x) const {
     if (fraction > 0.0) {
       point += fraction * (path.positions.col(frame + 1) - path.positions.col(frame));
     }
+  }
+  if (driven_ == nullptr || step == 0) return;
+  const int step_in_frame = (step - 1) % steps_per_frame_ + 1;  // the last is the end
+  const double left = 1.0 - static_cast<double>(step_in_frame) / steps_per_frame_;
+  for (const DrivenVertex& driven : *driven_) {
+    Eigen::Map<Eigen::Vector3d>(x + 3 * driven.vertex) =
+        driven.to + left * (driven.from - driven.to);
   }
 }
 

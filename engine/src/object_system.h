@@ -14,12 +14,19 @@
 #include "dpe/engine/parameters.h"
 #include "dpe/engine/scene.h"
 #include "dpe/engine/timings.h"
+#include "forces/collider.h"
 #include "forces/force_term.h"
 #include "forces/parameter_sink.h"
 #include "linear/block_pattern.h"
 #include "linear/step_solver.h"
 
 namespace dpe {
+
+// A fixed vertex on its way during the frame at hand, in place of its path.
+struct DrivenVertex {
+  int vertex = -1;
+  Eigen::Vector3d from, to;  // m, at the frame's beginning and end
+};
 
 class ObjectSystem {
  public:
@@ -55,6 +62,11 @@ class ObjectSystem {
 
   // Takes this object's values out of `scene` (which holds the current parameters).
   void SetParameters(const Scene& scene);
+  // Takes the scene's colliders in place of those it has. Allocates nothing if there
+  // are as many as before.
+  void SetColliders(const Scene& scene);
+  // Fixed vertices that do not follow the scene's paths; null: none. Not copied.
+  void SetDrivenVertices(const std::vector<DrivenVertex>* driven) { driven_ = driven; }
   const Eigen::VectorXd& initial_positions() const { return initial_positions_; }
   const Eigen::VectorXd& initial_velocities() const { return initial_velocities_; }
 
@@ -96,6 +108,7 @@ class ObjectSystem {
 
  private:
   void AddForceTerms(const Scene& scene, const ClothObject& object);
+  void AddColliders(const Scene& scene, const ClothObject& object);
   void BuildPattern();
   void VisitMass(const double* dv, ParameterSink* sink) const;
 
@@ -106,7 +119,9 @@ class ObjectSystem {
   ObjectParameters parameters_;
   Eigen::VectorXd initial_positions_, initial_velocities_;
   std::vector<PrescribedPath> paths_;
+  const std::vector<DrivenVertex>* driven_ = nullptr;
   std::vector<std::unique_ptr<ForceTerm>> terms_;
+  std::vector<ColliderTerm*> colliders_;  // the last of terms_
   ParameterColumns columns_, local_columns_;
   BlockPattern pattern_;
   std::vector<BlockSlot> diagonal_;

@@ -9,6 +9,7 @@
 
 #include "dpe/engine/scene_io.h"
 #include "io/number_text.h"
+#include "validation/collider_validation.h"
 #include "validation/object_validation.h"
 #include "validation/report.h"
 
@@ -39,22 +40,6 @@ void CheckScalars(const Scene& scene, const ValidationReport& report) {
   if (scene.solver != "auto" && scene.solver != "cholesky" && scene.solver != "cg") {
     report.Fail("solver", "\"" + scene.solver + "\"",
                 "\"auto\", \"cholesky\" or \"cg\"");
-  }
-}
-
-void CheckColliders(const Scene& scene, const ValidationReport& report) {
-  for (size_t i = 0; i < scene.colliders.size(); ++i) {
-    const Collider& collider = scene.colliders[i];
-    const std::string path = "colliders[" + std::to_string(i) + "]";
-    report.RequireFinite(path + ".pos", collider.position);
-    report.RequireFinite(path + ".rot", collider.rotation_degrees);
-    report.RequireFinite(path + ".scale", collider.scale);
-    if (collider.type == ColliderType::kSphere) {
-      report.RequirePositive(path + ".scale.x", collider.scale.x(),
-                             "a finite diameter of the sphere > 0 m");
-    }
-    report.RequireNotNegative(path + ".stiffness", collider.stiffness,
-                              "a finite stiffness >= 0 N/m");
   }
 }
 
@@ -112,7 +97,7 @@ void ValidateScene(const Scene& scene, const std::string& name,
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     ValidateObject(scene.objects[i], ObjectPath(i), report);
   }
-  CheckColliders(scene, report);
+  ValidateColliders(scene.colliders, report);
   WarnOfMissingInfluence(scene, report);
   WarnOfJumps(scene, report);
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "dpe/engine/cloth_builder.h"
+#include "dpe/engine/live_simulation.h"
 #include "dpe/engine/simulator.h"
 #include "support/sanitizers.h"
 
@@ -117,6 +118,26 @@ INSTANTIATE_TEST_SUITE_P(
       return IntegrationMethodName(std::get<0>(info.param)) + "_" +
              std::get<1>(info.param);
     });
+
+TEST(LiveAllocationTest, FramesAllocateNothingWhileThingsMove) {
+  Scene scene = MakePresetScene(ScenePreset::kSide);
+  scene.colliders = {SphereCollider({0.0, -2.0, 0.0}, 1.0)};
+  LiveSimulation live(scene);
+  const int last = scene.objects[0].num_vertices() - 1;
+  Eigen::Vector3d pin = scene.objects[0].positions.tail<3>();
+  const auto run = [&](int num_frames) {
+    const long before = allocation_count;
+    for (int f = 0; f < num_frames; ++f) {
+      pin.y() += 0.001;
+      live.SetFixedPosition(0, last, pin);
+      live.SetWind({0.1 * f, 0.0, 0.0});
+      EXPECT_TRUE(live.AdvanceFrame().ok());
+    }
+    return allocation_count - before;
+  };
+  run(20);
+  EXPECT_EQ(run(20), 0);
+}
 
 }  // namespace
 }  // namespace dpe::test

@@ -12,15 +12,19 @@ Eigen::Vector3d PlaneNormal(const Collider& collider) {
            Eigen::Vector3d::UnitY()));
 }
 
-ColliderKernel::ColliderKernel(const ClothObject& object, const Collider& collider)
-    : is_sphere_(collider.type == ColliderType::kSphere),
-      position_(collider.position),
-      normal_(PlaneNormal(collider)),
-      radius_(0.5 * collider.scale.x()),
-      stiffness_(collider.stiffness) {
+ColliderKernel::ColliderKernel(const ClothObject& object, const Collider& collider) {
+  SetCollider(collider);
   for (int i = 0; i < object.num_vertices(); ++i) {
     if (!object.is_fixed[i]) elements.push_back({i});
   }
+}
+
+void ColliderKernel::SetCollider(const Collider& collider) {
+  is_sphere_ = collider.type == ColliderType::kSphere;
+  position_ = collider.position;
+  normal_ = PlaneNormal(collider);
+  radius_ = 0.5 * collider.scale.x();
+  stiffness_ = collider.stiffness;
 }
 
 void ColliderKernel::Value(int /*e*/, const ElementInput<1>& in,

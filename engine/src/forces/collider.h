@@ -32,6 +32,9 @@ class ColliderKernel {
   // Acts on the free vertices of `object`.
   ColliderKernel(const ClothObject& object, const Collider& collider);
 
+  // Becomes this collider, for the same vertices.
+  void SetCollider(const Collider& collider);
+
   void Value(int e, const ElementInput<1>& in, Eigen::Vector3d* phi) const;
   void Expand(int e, const ElementInput<1>& in, Expansion<1>* out) const;
 
@@ -43,11 +46,11 @@ class ColliderKernel {
   std::vector<std::array<int, 1>> elements;
 
  private:
-  bool is_sphere_;
+  bool is_sphere_ = false;
   Eigen::Vector3d position_;
   Eigen::Vector3d normal_;  // planes
-  double radius_;           // spheres
-  double stiffness_;
+  double radius_ = 0.0;     // spheres
+  double stiffness_ = 0.0;
 };
 
 using ColliderTerm = ElementTerm<ColliderKernel>;

@@ -54,6 +54,8 @@ class ElementTerm final : public ForceTerm {
   explicit ElementTerm(Kernel kernel) : kernel_(std::move(kernel)) {}
 
   int num_elements() const { return static_cast<int>(kernel_.elements.size()); }
+  // Its elements must stay.
+  Kernel* mutable_kernel() { return &kernel_; }
 
   void AppendCouplings(std::vector<std::pair<int, int>>* pairs) const override {
     for (const auto& vertices : kernel_.elements) {

@@ -52,6 +52,7 @@ struct Camera {
 struct Picture {
   Camera camera;
   glm::vec3 light_direction{0.3f, 1.0f, 0.5f};  // towards the light
+  // Linear, as all colours.
   glm::vec4 background{0.08f, 0.09f, 0.11f, 1.0f};
   std::vector<Surface> surfaces;
   std::vector<Lines> lines;
