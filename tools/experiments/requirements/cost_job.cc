@@ -24,7 +24,7 @@ Record RunCostJob(const Job& job) {
   const ScratchFolder folder;
   const std::string scene = folder.File("scene.txt");
   const std::string output = folder.File("out");
-  const int time_frames = job.Integer("time_frames", 500);
+  const int time_frames = job.Integer("time_frames", kTimeFrames);
   WriteFileAtomically(scene, CostSceneText(job));
   const InstructionCount count =
       CountInstructions(CostCommand(job, scene, output, job.Integer("frames", 20)),
@@ -56,10 +56,8 @@ const std::vector<FeatureCode>& CodeOfFeatures() {
       {"collider", {"ColliderKernel"}},
       {"mass_derivative", {"dpe::ObjectSystem::VisitMass"}},
       {"drag_derivative", {"dpe::BatchTerm<dpe::DragLaw>::VisitParameters"}},
-      {"validation", {"dpe::Validate("}},
       {"uncertainty", {"Uncertainty", "Covariance"}},
       {"checkpoint", {"Checkpoint"}},
-      {"times", {"dpe::Timings::", "dpe::ScopedTimer"}},
       {"robust_loss", {"dpe::RobustLoss::"}},
       {"prior", {"dpe::Prior"}},
   };

@@ -18,6 +18,7 @@ namespace dpe::experiments {
 //   code_NAME         those of them in the code of a feature (CodeOfFeatures)
 //   rollouts          of an estimation
 //   program_cpu_s     processor time of the whole program with time_frames
+constexpr int kTimeFrames = 500;
 JobKind CostJobKind();
 
 // The code that belongs to one feature alone: parts of names of functions. What the

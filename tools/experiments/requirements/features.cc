@@ -13,17 +13,28 @@ const char kCaption[] =
     "What a feature costs when it is absent and when it is present. *Off / impossible* "
     "compares the instructions of a run that turns the feature off with one whose "
     "scene "
-    "or command line cannot have it: 1 is nothing. *Own code, off* and *on* are "
+    "or command line does not mention it: 1 is nothing. *Own code, off* and *on* are "
     "instructions in functions that belong to the feature alone, where it has any that "
     "the compiler does not spread over others. *On / off* is what you pay in "
-    "instructions, *ms per frame* in processor time (the least of several runs; below "
-    "some 0.002 it is noise). The first rows are simulations of 12 x 12 vertices, bare "
-    "springs under gravity but for the feature; those of fits are one iteration of "
-    "Levenberg-Marquardt (two rollouts, two Jacobians) with 6 x 6 vertices and all "
-    "forces, their time is that of a frame of a rollout with its share of the "
-    "derivatives. What is estimated is compared with a fit of the damping alone. A "
-    "quantity that is not estimated exists all the same, so none of these is "
-    "impossible; its own code is its derivative.";
+    "instructions, *ms per frame* in processor time (the least of several runs; what "
+    "is "
+    "a few per cent of the column beside it is noise). The first rows are simulations "
+    "of 12 x 12 vertices, bare springs under gravity but for the feature; those of "
+    "fits "
+    "are one iteration of Levenberg-Marquardt (two rollouts, two Jacobians) with 6 x 6 "
+    "vertices and all forces, their time is that of a frame of a rollout with its "
+    "share "
+    "of the derivatives. What is estimated is compared with a fit of the damping "
+    "alone. "
+    "A quantity that is not estimated exists all the same, so none of these is "
+    "impossible; its own code is its derivative. What to make of it: damping makes the "
+    "matrix of a step unsymmetric and costs as much as drag; one value (G) or one per "
+    "group (R) is nearly free to estimate, one per element (L) is what fits spend "
+    "their "
+    "time on, and smoothness and error bars for them are paid once per fit; wind, "
+    "colliders, checkpoints, priors, robust losses and the printing of times need not "
+    "be left out for the sake of speed. `--uncertainty off` also leaves out the report "
+    "of how much the motion depends on its start, which `auto` keeps.";
 
 std::string Format(const char* format, double value) {
   if (!std::isfinite(value)) return "–";
@@ -39,11 +50,11 @@ class Costs {
     for (const Row& row : rows) rows_[row.Text("id", "")] = &row;
   }
 
-  // NaN where there is none: it failed, or there is no such configuration.
-  double Number(const std::string& id, const std::string& key) const {
+  // `missing` where there is none: it failed, or there is no such configuration.
+  double Number(const std::string& id, const std::string& key,
+                double missing = std::nan("")) const {
     const auto found = rows_.find(id);
-    return found == rows_.end() ? std::nan("")
-                                : found->second->Number(key, std::nan(""));
+    return found == rows_.end() ? missing : found->second->Number(key, missing);
   }
   double Instructions(const std::string& id) const {
     return Number(id, "instructions");
@@ -54,7 +65,7 @@ class Costs {
   }
   double MillisecondsPerFrame(const std::string& id) const {
     return 1e3 * Number(id, "program_cpu_s") /
-           (Number(id, "time_frames") * Number(id, "rollouts"));
+           (Number(id, "time_frames", kTimeFrames) * Number(id, "rollouts"));
   }
 
  private:
@@ -99,7 +110,6 @@ Results FeatureResults(const std::vector<Row>& rows) {
   plot.title = "What a feature costs where it is present";
   plot.x_label = "instructions, with the feature / without";
   plot.y_label = "feature (row of the table, from the bottom)";
-  plot.log_x = true;
   plot.series = {bars};
   return {{table}, {plot}};
 }
@@ -116,8 +126,8 @@ const std::vector<Feature>& ComparedFeatures() {
       {"collider, in contact", "sim-bare", "sim-collider_soft", "sim-collider_contact",
        "collider", "sim-bare"},
       {"second object, simulated", "", "sim-bare", "sim-two_objects", "", ""},
-      {"printing of times, simulation", "sim-bare", "sim-times_off", "sim-times_on",
-       "times", ""},
+      {"printing of times, simulation", "sim-bare", "sim-times_off", "sim-times_on", "",
+       ""},
       {"second object, fitted", "fit-stiffness_alone", "fit-second_fixed",
        "fit-second_on", "", ""},
       {"mass G", "", "fit-damping", "fit-mass_G", "mass_derivative", ""},
@@ -132,13 +142,15 @@ const std::vector<Feature>& ComparedFeatures() {
       {"initial velocity, estimated", "", "fit-damping", "fit-initial_velocity", "",
        ""},
       {"validation over 200 frames", "fit-validation_unmentioned", "fit-validation_off",
-       "fit-validation_on", "validation", ""},
-      {"uncertainty (145)", "fit-uncertainty_off", "fit-uncertainty_auto",
-       "fit-uncertainty_on", "uncertainty", ""},
+       "fit-validation_on", "", ""},
+      {"report of the sensitivity to the start", "", "fit-uncertainty_off",
+       "fit-uncertainty_auto", "", ""},
+      {"uncertainty (145)", "", "fit-uncertainty_auto", "fit-uncertainty_on",
+       "uncertainty", ""},
       {"checkpoints", "fit-stiffness_alone", "fit-checkpoint_off", "fit-checkpoint_on",
        "checkpoint", ""},
       {"printing of times, fit", "fit-stiffness_alone", "fit-times_off", "fit-times_on",
-       "times", ""},
+       "", ""},
       {"robust loss", "fit-sigma", "fit-loss_off", "fit-loss_on", "robust_loss", ""},
       {"prior", "fit-sigma", "fit-prior_off", "fit-prior_on", "prior", ""},
       {"smoothness (145)", "fit-sigma_L", "fit-smoothness_off", "fit-smoothness_on",
