@@ -18,6 +18,7 @@
 #include "support/progress_table.h"
 #include "support/repeated_flag.h"
 #include "support/run_main.h"
+#include "support/target/target_flags.h"
 
 DEFINE_string(
     scene, "",
@@ -54,32 +55,6 @@ DEFINE_string(
     "initial velocity are each capture's own. The other --target_ flags are "
     "for all of them.");
 DEFINE_validator(target, &dpe::tools::RememberValue);
-DEFINE_double(target_scale, 0.0,
-              "Metres per unit of the target; 0: what the file says, else 1.");
-DEFINE_string(target_up, "y", "The target's axis that points up: y or z.");
-DEFINE_double(target_rate, 0.0,
-              "Frames per second of a target without times; 0: the scene's.");
-DEFINE_string(target_origin, "auto",
-              "When the scene begins: first (at the target's first sample), file (at "
-              "its time 0), or auto: file for frame numbers, else first.");
-DEFINE_bool(target_nan_is_missing, false,
-            "Take a position of three NaN as not observed; otherwise it is an error.");
-DEFINE_string(target_attach, "auto",
-              "What the target's markers are: vertex (named by number), position (the "
-              "nearest point of the cloth at the start), or auto.");
-DEFINE_int32(target_object, -1,
-             "The object that the target belongs to; -1: all, counted through.");
-DEFINE_string(marker_map, "",
-              "File of lines marker,vertex that says which vertex a marker is.");
-DEFINE_double(
-    marker_limit, 0.0,
-    "Greatest distance (m) of a marker from the cloth that it is attached to; "
-    "0: half the mean edge length of its triangles.");
-DEFINE_bool(follow_pins, false,
-            "Fixed vertices follow the target where it shows them.");
-DEFINE_string(initial_state, "scene",
-              "Where the vertices begin: scene, or target (its first frame, where it "
-              "shows them).");
 DEFINE_string(rest_shape, "",
               "Where rest lengths come from instead of the scene: an OBJ file, or "
               "uv[:SIZE] or uv[:U,V] for the target's texture coordinates, scaled to "
@@ -183,38 +158,6 @@ DEFINE_bool(print_times, false,
 namespace dpe::tools {
 namespace {
 
-[[noreturn]] void Refuse(const std::string& flag, const std::string& value,
-                         const std::string& accepted) {
-  throw SceneError("--" + flag + ": \"" + value + "\" is not accepted; expected " +
-                   accepted);
-}
-
-TargetOptions TargetFromFlags() {
-  RequireAtLeast("target_scale", FLAGS_target_scale, 0.0);
-  RequireAtLeast("target_rate", FLAGS_target_rate, 0.0);
-  RequireAtLeast("target_object", FLAGS_target_object, -1);
-  RequireAtLeast("marker_limit", FLAGS_marker_limit, 0.0);
-  TargetOptions target;
-  target.capture.scale = FLAGS_target_scale;
-  target.capture.up = FromFlag("target_up", FLAGS_target_up, UpAxisFromName);
-  target.capture.rate = FLAGS_target_rate;
-  target.capture.origin =
-      FromFlag("target_origin", FLAGS_target_origin, TimeOriginFromName);
-  target.capture.nan_is_missing = FLAGS_target_nan_is_missing;
-  target.attach.method =
-      FromFlag("target_attach", FLAGS_target_attach, AttachMethodFromName);
-  target.attach.object = FLAGS_target_object;
-  target.attach.max_distance = FLAGS_marker_limit;
-  target.marker_map = FLAGS_marker_map;
-  target.follow_pins = FLAGS_follow_pins;
-  if (FLAGS_initial_state != "scene" && FLAGS_initial_state != "target") {
-    Refuse("initial_state", FLAGS_initial_state, "scene or target");
-  }
-  target.start_from_target = FLAGS_initial_state == "target";
-  target.rest_shape = FLAGS_rest_shape;
-  return target;
-}
-
 // What makes a scene of the target is an error where there is one.
 SceneFromTargetOptions SceneFromTargetFromFlags() {
   if (!FLAGS_scene.empty()) {
@@ -266,6 +209,7 @@ EstimationJob JobFromFlags() {
   job.settings = FLAGS_settings;
   job.target_paths = RepeatedPaths("target");
   job.target = TargetFromFlags();
+  job.target.rest_shape = FLAGS_rest_shape;
   job.estimate = Split(FLAGS_estimate, ',');
   if (FLAGS_estimate_initial_velocity) job.estimate.push_back("initial_velocity");
   job.trajectory_format =

@@ -13,12 +13,12 @@
 #include "app/session.h"
 #include "app/window_app.h"
 #include "dpe/engine/scene_io.h"
-#include "dpe/estimation/load_target.h"
 #include "scene_view/deviations_io.h"
 #include "support/blas_threads.h"
 #include "support/flag_ranges.h"
 #include "support/flag_values.h"
 #include "support/run_main.h"
+#include "support/target/target_flags.h"
 #include "vk/device_options.h"
 #include "vk/validation_log.h"
 
@@ -27,26 +27,6 @@ DEFINE_string(
     target, "",
     "What was observed, in any format that estimate_cloth --target reads; the "
     "scene is then a green wireframe over it.");
-DEFINE_double(target_scale, 0.0,
-              "Metres per unit of the target; 0: what the file says, else 1.");
-DEFINE_string(target_up, "y", "The target's axis that points up: y or z.");
-DEFINE_double(target_rate, 0.0,
-              "Frames per second of a target without times; 0: the scene's.");
-DEFINE_string(target_origin, "auto",
-              "When the scene begins: first (at the target's first sample), file (at "
-              "its time 0), or auto.");
-DEFINE_bool(target_nan_is_missing, false,
-            "Take a position of three NaN as not observed; otherwise it is an error.");
-DEFINE_string(target_attach, "auto",
-              "What the target's markers are: vertex, position or auto.");
-DEFINE_int32(target_object, -1,
-             "The object that the target belongs to; -1: all, counted through.");
-DEFINE_string(marker_map, "",
-              "File of lines marker,vertex that says which vertex a marker is.");
-DEFINE_bool(follow_pins, false,
-            "Fixed vertices follow the target where it shows them.");
-DEFINE_string(initial_state, "scene",
-              "Where the vertices begin: scene, or target (its first frame).");
 DEFINE_string(trajectory, "",
               "A recorded motion of the scene to play in place of a simulation, as "
               "simulate_cloth and estimate_cloth write it.");
@@ -108,37 +88,13 @@ void PrintWarnings(const std::vector<std::string>& warnings) {
   }
 }
 
-TargetOptions TargetFromFlags() {
-  tools::RequireAtLeast("target_scale", FLAGS_target_scale, 0.0);
-  tools::RequireAtLeast("target_rate", FLAGS_target_rate, 0.0);
-  tools::RequireAtLeast("target_object", FLAGS_target_object, -1);
-  TargetOptions target;
-  target.capture.scale = FLAGS_target_scale;
-  target.capture.up = FromFlag("target_up", FLAGS_target_up, UpAxisFromName);
-  target.capture.rate = FLAGS_target_rate;
-  target.capture.origin =
-      FromFlag("target_origin", FLAGS_target_origin, TimeOriginFromName);
-  target.capture.nan_is_missing = FLAGS_target_nan_is_missing;
-  target.attach.method =
-      FromFlag("target_attach", FLAGS_target_attach, AttachMethodFromName);
-  target.attach.object = FLAGS_target_object;
-  target.marker_map = FLAGS_marker_map;
-  target.follow_pins = FLAGS_follow_pins;
-  if (FLAGS_initial_state != "scene" && FLAGS_initial_state != "target") {
-    throw SceneError("--initial_state: \"" + FLAGS_initial_state +
-                     "\" is not accepted; expected scene or target");
-  }
-  target.start_from_target = FLAGS_initial_state == "target";
-  return target;
-}
-
 PlayerSources SourcesFromFlags() {
   PlayerSources sources;
   std::vector<std::string> warnings;
   sources.scene = LoadScene(scene_path, &warnings);
   if (!FLAGS_target.empty()) {
-    sources.target =
-        LoadRecordedMotion(FLAGS_target, TargetFromFlags(), &sources.scene, &warnings);
+    sources.target = LoadRecordedMotion(FLAGS_target, tools::TargetFromFlags(),
+                                        &sources.scene, &warnings);
   }
   if (!FLAGS_trajectory.empty()) {
     Scene scene = sources.scene;

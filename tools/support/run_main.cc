@@ -25,10 +25,10 @@ std::string Folder(const std::string& file) {
 }
 
 // The libraries we link define flags of their own (gflags some, glog dozens). The flags
-// of a program are those in its source file and in support/.
+// of a program are those in its source file and in or below this folder.
 bool IsOwnFlag(const Program& program, const gflags::CommandLineFlagInfo& flag) {
   return flag.filename == program.source_file ||
-         Folder(flag.filename) == Folder(program.source_file) + "support/";
+         flag.filename.rfind(Folder(__FILE__), 0) == 0;
 }
 
 std::string Wrap(const std::string& text, const std::string& indent, size_t width) {
