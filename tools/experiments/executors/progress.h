@@ -22,7 +22,6 @@ class Progress {
   std::string Line(int num_running) const;
   std::string Line(int num_running, double elapsed_s) const;
 
-  int num_ended() const { return num_ended_; }
   // By outcome, of this run.
   const std::map<std::string, int>& outcomes() const { return outcomes_; }
 

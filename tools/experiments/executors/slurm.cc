@@ -15,6 +15,7 @@
 #include "dpe/engine/scene_io.h"
 #include "experiments/campaign.h"
 #include "experiments/executors/slurm_commands.h"
+#include "experiments/hash.h"
 #include "experiments/machine.h"
 
 namespace dpe::experiments {
@@ -30,12 +31,10 @@ constexpr double kRowDelay = 10.0;
 // Within it Slurm ends the watching process of a task whose job it has ended.
 constexpr double kKilledDelay = 5.0;
 
-// FNV-1a, 64 bits: the same wherever the program is compiled.
 std::string KeyOf(const std::string& dir) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const unsigned char c : dir) hash = (hash ^ c) * 1099511628211u;
   char text[20];
-  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
+  std::snprintf(text, sizeof(text), "%016llx",
+                static_cast<unsigned long long>(Hash(dir.data(), dir.size())));
   return text;
 }
 

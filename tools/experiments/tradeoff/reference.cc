@@ -12,6 +12,7 @@
 
 #include "dpe/engine/scene_io.h"
 #include "dpe/engine/simulator.h"
+#include "experiments/hash.h"
 #include "experiments/tradeoff/candidate.h"
 
 namespace dpe::experiments::tradeoff {
@@ -31,22 +32,13 @@ Eigen::MatrixXd Positions(Scene scene, int steps, int frames) {
   return trajectory.positions[0];
 }
 
-// FNV-1a.
-std::uint64_t Hash(const char* bytes, size_t count, std::uint64_t hash) {
-  for (size_t i = 0; i < count; ++i) {
-    hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 1099511628211u;
-  }
-  return hash;
-}
-
 std::uint64_t Key(const Scene& scene, int frames) {
   Scene plain = scene;
   ApplyStepSettings({IntegrationMethod::kTrBdf2, 1, "cholesky"}, &plain, nullptr);
   const std::string text = SceneToJson(plain);
   const Eigen::MatrixXd coarse = Positions(plain, 1, frames);
-  const std::uint64_t hash = Hash(text.data(), text.size(), 14695981039346656037u);
-  return Hash(reinterpret_cast<const char*>(coarse.data()),
-              coarse.size() * sizeof(double), hash);
+  return Hash(coarse.data(), coarse.size() * sizeof(double),
+              Hash(text.data(), text.size()));
 }
 
 std::string CachePath(std::uint64_t key) {
@@ -65,9 +57,7 @@ bool Read(const std::string& path, Eigen::MatrixXd* positions,
   file.read(reinterpret_cast<char*>(uncertainty->data()), bytes);
   file.read(reinterpret_cast<char*>(&found), sizeof(found));
   if (!file) return false;
-  const std::uint64_t hash =
-      Hash(reinterpret_cast<const char*>(positions->data()), bytes, 1);
-  return found == Hash(reinterpret_cast<const char*>(uncertainty->data()), bytes, hash);
+  return found == Hash(uncertainty->data(), bytes, Hash(positions->data(), bytes, 1));
 }
 
 void Write(const std::string& path, const Reference& reference) {
