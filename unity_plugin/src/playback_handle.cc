@@ -9,14 +9,6 @@
 namespace dpe::c {
 namespace {
 
-std::vector<int> Sizes(const Scene& scene) {
-  std::vector<int> sizes;
-  for (const ClothObject& cloth : scene.objects) {
-    sizes.push_back(3 * cloth.num_vertices());
-  }
-  return sizes;
-}
-
 // Every vertex of the objects that it shows, at every frame.
 std::vector<Eigen::MatrixXd> ReadRecording(Scene scene, const std::string& path,
                                            int* num_frames) {
@@ -57,7 +49,7 @@ std::vector<Eigen::MatrixXd> ReadRecording(Scene scene, const std::string& path,
 PlaybackHandle::PlaybackHandle(const Scene& scene, const std::string& path)
     : frame_length_(scene.delta),
       recorded_(ReadRecording(scene, path, &num_frames_)),
-      positions_(Sizes(scene)) {}
+      positions_(scene) {}
 
 void PlaybackHandle::Update() {
   if (state_ != DPE_RUNNING) return;

@@ -6,9 +6,11 @@
 
 namespace dpe::c {
 
-PositionBuffer::PositionBuffer(const std::vector<int>& sizes)
-    : num_objects_(static_cast<int>(sizes.size())) {
-  for (int size : sizes) back_.emplace_back(size);
+PositionBuffer::PositionBuffer(const Scene& scene)
+    : num_objects_(static_cast<int>(scene.objects.size())) {
+  for (const ClothObject& cloth : scene.objects) {
+    back_.emplace_back(3 * cloth.num_vertices());
+  }
   front_ = back_;
 }
 

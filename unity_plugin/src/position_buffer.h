@@ -9,6 +9,8 @@
 #include <mutex>
 #include <vector>
 
+#include "dpe/engine/scene.h"
+
 namespace dpe::c {
 
 // What a reader knows and is told, see dpe_scene_copy_positions.
@@ -22,8 +24,8 @@ struct PositionReader {
 
 class PositionBuffer {
  public:
-  // @param sizes  coordinates of each object
-  explicit PositionBuffer(const std::vector<int>& sizes);
+  // Of all objects of the scene.
+  explicit PositionBuffer(const Scene& scene);
 
   int num_objects() const { return num_objects_; }
 

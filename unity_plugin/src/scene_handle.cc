@@ -3,25 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 namespace dpe::c {
-namespace {
-
-std::vector<int> Sizes(const Scene& scene) {
-  std::vector<int> sizes;
-  for (const ClothObject& cloth : scene.objects) {
-    sizes.push_back(3 * cloth.num_vertices());
-  }
-  return sizes;
-}
-
-}  // namespace
 
 SceneHandle::SceneHandle(const Scene& scene, std::string warnings)
-    : warnings_(std::move(warnings)),
-      model_(scene, &interrupted_),
-      positions_(Sizes(scene)) {
+    : warnings_(std::move(warnings)), model_(scene, &interrupted_), positions_(scene) {
   Publish();
 }
 
