@@ -6,6 +6,7 @@
 
 #include "dpe/engine/sensitivity.h"
 #include "dpe/engine/simulator.h"
+#include "support/integration_methods.h"
 #include "support/test_scenes.h"
 
 namespace dpe::test {
@@ -56,15 +57,8 @@ TEST_P(DerivativeOverflowTest, IsNotOk) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllMethods, DerivativeOverflowTest,
-                         testing::Values(IntegrationMethod::kExplicitEuler,
-                                         IntegrationMethod::kSymplecticEuler,
-                                         IntegrationMethod::kLinearlyImplicitEuler,
-                                         IntegrationMethod::kImplicitEuler,
-                                         IntegrationMethod::kTrBdf2),
-                         [](const auto& info) {
-                           return IntegrationMethodName(info.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(AllMethods, DerivativeOverflowTest, AllIntegrationMethods(),
+                         MethodCaseName);
 
 }  // namespace
 }  // namespace dpe::test

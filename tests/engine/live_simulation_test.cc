@@ -13,15 +13,11 @@
 
 #include "dpe/engine/cloth_builder.h"
 #include "dpe/engine/scene_io.h"
+#include "support/integration_methods.h"
 #include "support/test_scenes.h"
 
 namespace dpe::test {
 namespace {
-
-const IntegrationMethod kMethods[] = {
-    IntegrationMethod::kExplicitEuler, IntegrationMethod::kSymplecticEuler,
-    IntegrationMethod::kLinearlyImplicitEuler, IntegrationMethod::kImplicitEuler,
-    IntegrationMethod::kTrBdf2};
 
 Scene SceneFor(const std::string& name, IntegrationMethod method, int steps_per_frame) {
   Scene scene = MakeDerivativeScene(name, 6);
@@ -91,7 +87,7 @@ TEST_P(LiveSimulationTest, FramesAreThoseOfSimulate) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LiveSimulationTest,
-                         testing::Combine(testing::ValuesIn(kMethods),
+                         testing::Combine(AllIntegrationMethods(),
                                           testing::Values("side", "collider",
                                                           "two_objects"),
                                           testing::Values(1, 3)),
@@ -226,10 +222,7 @@ TEST_P(LiveChangesTest, StateIsTaken) {
   ExpectSameFuture(scene_, 3, &other);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LiveChangesTest, testing::ValuesIn(kMethods),
-                         [](const auto& info) {
-                           return IntegrationMethodName(info.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(All, LiveChangesTest, AllIntegrationMethods(), MethodCaseName);
 
 TEST(LiveFailureTest, KeepsTheStateAndGoesOnWhenTheReasonIsGone) {
   const Scene scene = SceneFor("side", IntegrationMethod::kExplicitEuler, 2);

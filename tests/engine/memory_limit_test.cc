@@ -11,6 +11,7 @@
 
 #include "inner_states.h"
 #include "memory_plan.h"
+#include "support/integration_methods.h"
 #include "support/sanitizers.h"
 #include "support/scene_derivatives.h"
 #include "support/test_scenes.h"
@@ -95,18 +96,15 @@ TEST_P(MemoryLimitTest, DerivativesDoNotDependOnIt) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, MemoryLimitTest,
-    testing::Combine(testing::Values(IntegrationMethod::kExplicitEuler,
-                                     IntegrationMethod::kSymplecticEuler,
-                                     IntegrationMethod::kLinearlyImplicitEuler,
-                                     IntegrationMethod::kImplicitEuler,
-                                     IntegrationMethod::kTrBdf2),
-                     testing::Values("cholesky", "cg"), testing::Values(1, 3)),
-    [](const auto& info) {
-      return IntegrationMethodName(std::get<0>(info.param)) + "_" +
-             std::get<1>(info.param) + "_" + std::to_string(std::get<2>(info.param));
-    });
+INSTANTIATE_TEST_SUITE_P(All, MemoryLimitTest,
+                         testing::Combine(AllIntegrationMethods(),
+                                          testing::Values("cholesky", "cg"),
+                                          testing::Values(1, 3)),
+                         [](const auto& info) {
+                           return IntegrationMethodName(std::get<0>(info.param)) + "_" +
+                                  std::get<1>(info.param) + "_" +
+                                  std::to_string(std::get<2>(info.param));
+                         });
 
 TEST(MemoryLimitTest, FactorsOfSymmetricMatricesTakeLess) {
   std::size_t bytes[2];

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dpe/engine/simulator.h"
+#include "support/integration_methods.h"
 #include "support/test_scenes.h"
 
 namespace dpe::test {
@@ -81,15 +82,8 @@ TEST(NamedFailures, ExplicitMethodsDoDivergeThere) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllMethods, NamedFailuresTest,
-                         testing::Values(IntegrationMethod::kExplicitEuler,
-                                         IntegrationMethod::kSymplecticEuler,
-                                         IntegrationMethod::kLinearlyImplicitEuler,
-                                         IntegrationMethod::kImplicitEuler,
-                                         IntegrationMethod::kTrBdf2),
-                         [](const auto& info) {
-                           return IntegrationMethodName(info.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(AllMethods, NamedFailuresTest, AllIntegrationMethods(),
+                         MethodCaseName);
 
 }  // namespace
 }  // namespace dpe::test

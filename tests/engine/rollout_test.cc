@@ -7,15 +7,11 @@
 #include "dpe/engine/cloth_builder.h"
 #include "dpe/engine/sensitivity.h"
 #include "dpe/engine/simulator.h"
+#include "support/integration_methods.h"
 #include "support/test_scenes.h"
 
 namespace dpe::test {
 namespace {
-
-const IntegrationMethod kMethods[] = {
-    IntegrationMethod::kExplicitEuler, IntegrationMethod::kSymplecticEuler,
-    IntegrationMethod::kLinearlyImplicitEuler, IntegrationMethod::kImplicitEuler,
-    IntegrationMethod::kTrBdf2};
 
 class RolloutTest : public testing::TestWithParam<IntegrationMethod> {};
 
@@ -161,10 +157,7 @@ TEST_P(RolloutTest, PrescribedPathIsFollowedAndDrivesTheCloth) {
       1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RolloutTest, testing::ValuesIn(kMethods),
-                         [](const auto& info) {
-                           return IntegrationMethodName(info.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(All, RolloutTest, AllIntegrationMethods(), MethodCaseName);
 
 TEST(RolloutStatusTest, BlowUpIsAStatusThatNamesThePlace) {
   Scene scene = MakeDerivativeScene("side", 6);

@@ -11,6 +11,7 @@
 
 #include "dpe/engine/simulator.h"
 #include "support/derivative_checker.h"
+#include "support/integration_methods.h"
 #include "support/sanitizers.h"
 #include "support/scene_derivatives.h"
 #include "support/test_scenes.h"
@@ -194,9 +195,7 @@ INSTANTIATE_TEST_SUITE_P(All, KeptFactorizationTest,
                          testing::Values(IntegrationMethod::kLinearlyImplicitEuler,
                                          IntegrationMethod::kImplicitEuler,
                                          IntegrationMethod::kTrBdf2),
-                         [](const auto& info) {
-                           return IntegrationMethodName(info.param);
-                         });
+                         MethodCaseName);
 
 // With the Krylov solver derivatives are exact to its tolerance.
 TEST_P(KeptFactorizationTest, IterativeSolverFollowsItsTolerance) {
@@ -261,26 +260,14 @@ TEST_P(JacobianTest, TangentAndAdjointGiveTheSameRows) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, JacobianTest,
-                         testing::Values(IntegrationMethod::kExplicitEuler,
-                                         IntegrationMethod::kSymplecticEuler,
-                                         IntegrationMethod::kLinearlyImplicitEuler,
-                                         IntegrationMethod::kImplicitEuler,
-                                         IntegrationMethod::kTrBdf2),
-                         [](const auto& info) {
-                           return IntegrationMethodName(info.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(All, JacobianTest, AllIntegrationMethods(), MethodCaseName);
 
-INSTANTIATE_TEST_SUITE_P(
-    All, SensitivityTest,
-    testing::Combine(testing::Values(IntegrationMethod::kExplicitEuler,
-                                     IntegrationMethod::kSymplecticEuler,
-                                     IntegrationMethod::kLinearlyImplicitEuler,
-                                     IntegrationMethod::kImplicitEuler,
-                                     IntegrationMethod::kTrBdf2),
-                     testing::ValuesIn(DerivativeSceneNames()), testing::Values(5, 50),
-                     testing::Values(Way::kDefault)),
-    CaseName);
+INSTANTIATE_TEST_SUITE_P(All, SensitivityTest,
+                         testing::Combine(AllIntegrationMethods(),
+                                          testing::ValuesIn(DerivativeSceneNames()),
+                                          testing::Values(5, 50),
+                                          testing::Values(Way::kDefault)),
+                         CaseName);
 
 INSTANTIATE_TEST_SUITE_P(
     Iterative, SensitivityTest,
@@ -293,12 +280,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     NothingKept, SensitivityTest,
-    testing::Combine(testing::Values(IntegrationMethod::kExplicitEuler,
-                                     IntegrationMethod::kSymplecticEuler,
-                                     IntegrationMethod::kLinearlyImplicitEuler,
-                                     IntegrationMethod::kImplicitEuler,
-                                     IntegrationMethod::kTrBdf2),
-                     testing::Values("two_objects"), testing::Values(5),
+    testing::Combine(AllIntegrationMethods(), testing::Values("two_objects"),
+                     testing::Values(5),
                      testing::Values(Way::kNothingKept, Way::kIterativeNothingKept)),
     CaseName);
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include "support/integration_methods.h"
 #include "support/scene_derivatives.h"
 #include "support/test_scenes.h"
 
@@ -53,18 +54,13 @@ TEST(ThreadsTest, LargeSystemsAreSolvedAlike) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, ThreadsTest,
-    testing::Combine(testing::Values(IntegrationMethod::kExplicitEuler,
-                                     IntegrationMethod::kSymplecticEuler,
-                                     IntegrationMethod::kLinearlyImplicitEuler,
-                                     IntegrationMethod::kImplicitEuler,
-                                     IntegrationMethod::kTrBdf2),
-                     testing::Values("cholesky", "cg")),
-    [](const auto& info) {
-      return IntegrationMethodName(std::get<0>(info.param)) + "_" +
-             std::get<1>(info.param);
-    });
+INSTANTIATE_TEST_SUITE_P(All, ThreadsTest,
+                         testing::Combine(AllIntegrationMethods(),
+                                          testing::Values("cholesky", "cg")),
+                         [](const auto& info) {
+                           return IntegrationMethodName(std::get<0>(info.param)) + "_" +
+                                  std::get<1>(info.param);
+                         });
 
 }  // namespace
 }  // namespace dpe::test
