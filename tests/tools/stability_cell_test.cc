@@ -68,7 +68,7 @@ TEST(StabilityCellTest, ImplicitMethodsGoOnWhereExplicitOnesFail) {
   }
 }
 
-TEST(StabilityCellTest, ALongStepIsStableButInaccurate) {
+TEST(StabilityCellTest, AStepOfASecondIsStableButInaccurate) {
   for (int method : {2, 3, 4}) {
     const Record row = RunCell("delta", 1.0, method);
     EXPECT_EQ(row.Text("result", ""), "inaccurate") << method;
