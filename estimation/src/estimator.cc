@@ -17,6 +17,7 @@
 #include "horizon.h"
 #include "optimizers.h"
 #include "prior_rows.h"
+#include "profile_scan.h"
 #include "shooting_start.h"
 #include "starting_point.h"
 #include "stop_control.h"
@@ -24,9 +25,6 @@
 
 namespace dpe {
 namespace {
-
-// Repetitions of a fit from better trial points.
-constexpr int kMaxBasins = 3;
 
 class Fit {
  public:
@@ -201,6 +199,7 @@ class Fit {
     const GrownHorizon grown =
         GrowHorizon(fit_.captures(), start_.coordinates, &context_, resumed);
     summary_.horizons = context_.horizons;
+    summary_.notes.insert(summary_.notes.end(), grown.notes.begin(), grown.notes.end());
     summary_.evaluations += grown.num_rollouts;
     summary_.jacobian_evaluations += grown.num_derivative_passes;
     context_.first_iteration = context_.num_iterations;
@@ -294,18 +293,52 @@ class Fit {
   // minimum or a plateau is not taken for the answer.
   void CheckForBetterBasins() {
     for (int round = 0; round < kMaxBasins && HasFewParameters(); ++round) {
-      const double rms_before = fit_.best_rms();
       if (!summary_.usable() || fit_.IsAtRounding()) return;
+      converged_ = {evaluator()->best_cost(), fit_.best_rms()};
       const Eigen::VectorXd better = FindBetterTrialPoint(&stop_, evaluator());
-      if (better.size() == 0) return;
-      problem()->set_coordinates(better);
-      Minimise();
-      std::ostringstream note;
-      note << "the fit had converged to RMS " << rms_before
-           << " m; log-spaced trial values showed a better basin, from which it was "
-              "repeated";
-      summary_.notes.push_back(note.str());
+      const bool is_better =
+          better.size() > 0
+              ? MinimiseFrom(better, "log-spaced trial values showed a better basin")
+              : MinimiseFromProfiles();
+      if (!is_better) return;
     }
+  }
+
+  // From the lowest few minima that the profiles of the parameters have beside the
+  // answer, until one leads lower.
+  bool MinimiseFromProfiles() {
+    int num_tried = 0;
+    for (const Eigen::VectorXd& minimum : ProfileMinima(&stop_, evaluator())) {
+      if (num_tried++ == kMaxBasins || stop_.Poll()) return false;
+      if (MinimiseFrom(minimum,
+                       "along the valley that it lies in there is a lower "
+                       "minimum")) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // True if the cost is now lower than where the fit had converged; else all is as it
+  // was.
+  bool MinimiseFrom(const Eigen::VectorXd& coordinates, const std::string& reason) {
+    const Termination termination = summary_.termination;
+    const std::string message = summary_.message;
+    problem()->set_coordinates(coordinates);
+    if (evaluator()->Evaluate(coordinates)) Minimise();
+    if (evaluator()->best_cost() < (1.0 - kBetter) * converged_.cost) {
+      std::ostringstream note;
+      note << "the fit had converged to RMS " << converged_.rms << " m; " << reason
+           << ", from which it was repeated";
+      summary_.notes.push_back(note.str());
+      return true;
+    }
+    problem()->set_coordinates(evaluator()->best_coordinates());
+    if (!stop_.stopped()) {
+      summary_.termination = termination;
+      summary_.message = message;
+    }
+    return false;
   }
 
   void Finish() {
@@ -363,6 +396,9 @@ class Fit {
   StartingPoint start_;
   EstimatorSummary summary_;
   bool use_lm_ = true;
+  struct {
+    double cost = 0.0, rms = 0.0;
+  } converged_;  // before better basins were looked for
 };
 
 EstimatorSummary EstimateCaptures(const std::vector<CaptureView>& captures,

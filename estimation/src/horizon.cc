@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common_values.h"
 #include "moved_observations.h"
 
 namespace dpe {
@@ -44,6 +45,7 @@ class HorizonGrower {
         stage_context_.horizons.pop_back();
       }
     }
+    needs_common_values_ = resumed == nullptr;
     while (solved + step < num_frames_ && !context_->is_over()) {
       if (Fit(solved + step)) {
         solved += step;
@@ -86,6 +88,7 @@ class HorizonGrower {
                                       : context_->options->function_tolerance;
     FitProblem fit(CutCaptures(captures_, num_frames), options_, context_->stop);
     TrajectoryEvaluator* evaluator = fit.evaluator();
+    FindCommonValues(fit);
     const bool ok = evaluator->Evaluate(result_.coordinates);
     if (ok) {
       HorizonStage stage;
@@ -109,6 +112,26 @@ class HorizonGrower {
     return ok;
   }
 
+  // Before the first horizon that can be simulated.
+  void FindCommonValues(FitProblem& fit) {
+    if (!needs_common_values_ ||
+        !StartsWithCommonValues(*fit.evaluator(), result_.coordinates)) {
+      return;
+    }
+    const CommonValues common = FitCommonValues(fit.captures(), *fit.evaluator(),
+                                                result_.coordinates, context_);
+    needs_common_values_ = !common.ok;
+    if (common.ok) {
+      result_.notes.push_back(
+          "the elements start alike: one value for all of them was "
+          "fitted first, to " +
+          std::to_string(fit.num_frames()) + " frames");
+    }
+    result_.coordinates = common.coordinates;
+    result_.num_rollouts += common.num_rollouts;
+    result_.num_derivative_passes += common.num_derivative_passes;
+  }
+
   void Minimise(FitProblem* fit) {
     stage_context_.fit = fit;
     stage_context_.num_iterations = context_->num_iterations;
@@ -125,6 +148,7 @@ class HorizonGrower {
   OptimizerContext stage_context_;
   const int num_frames_;
   GrownHorizon result_;
+  bool needs_common_values_ = true;
   HorizonStage unfinished_;  // in which a fit is continued
 };
 

@@ -20,8 +20,9 @@
 namespace dpe {
 
 struct GrownHorizon {
-  bool ok = false;              // false: not even the first frames could be fitted
-  std::string message;          // why not
+  bool ok = false;      // false: not even the first frames could be fitted
+  std::string message;  // why not
+  std::vector<std::string> notes;
   Eigen::VectorXd coordinates;  // the start for all frames
   int num_rollouts = 0;
   int num_derivative_passes = 0;

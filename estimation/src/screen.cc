@@ -16,9 +16,6 @@ constexpr double kMaxExponent = 4.0;
 constexpr int kShortHorizon = 10;
 constexpr int kNumFinalists = 8;
 
-// A trial point has to lower the cost by this fraction to be worth another fit.
-constexpr double kBetter = 1e-6;
-
 constexpr int kSweeps = 3;  // of the coordinate-wise search
 
 struct Trial {

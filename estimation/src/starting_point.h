@@ -71,6 +71,11 @@ bool AllAreComplete(const std::vector<FitCapture>& captures);
 // start at 0.
 StartingPoint ScreenStartingPoints(StopControl* stop, TrajectoryEvaluator* evaluator);
 
+// How often a fit of few parameters is repeated from a better trial point, at most.
+constexpr int kMaxBasins = 3;
+// By what fraction of the cost a point has to be lower to be worth another fit.
+constexpr double kBetter = 1e-6;
+
 // Looks for log-spaced values of single parameters, the others as at the best point so
 // far, that give a lower cost than that point.
 // @return  the coordinates of the best such trial point; empty if there is none

@@ -114,5 +114,39 @@ INSTANTIATE_TEST_SUITE_P(
       return std::string(info.param.preset) + "_" + info.param.settings;
     });
 
+// Mass and stiffness of the flag in its wind: a valley with a minimum at 10 N/m and a
+// lower one at 55 N/m, between which the RMS is a tenth higher.
+TEST(GlobalOptimumOfTwoTest, IsFoundAlongAValley) {
+  constexpr int kFrames = 100;
+  Scene scene = MakePresetScene(ScenePreset::kFlag);
+  ApplySettings("GG", &scene);
+  const Observations target = test::OwnMotion(scene, kFrames);
+  Simulator simulator(scene);
+  // The least over the part of a grid with this stiffness or more, or less.
+  const auto least_rms = [&](double low, double high) {
+    double least = std::numeric_limits<double>::infinity();
+    for (double k = low; k < high; k *= 1.1) {
+      for (double m = 0.032; m < 0.042; m *= 1.02) {
+        const Rollout rollout = simulator.Run(Eigen::Vector2d(m, k), kFrames);
+        if (!rollout.status().ok()) continue;
+        least =
+            std::min(least, RmsPositionError(rollout.trajectory(), target, kFrames));
+      }
+    }
+    return least;
+  };
+  const double lower = least_rms(45.0, 70.0), higher = least_rms(8.0, 13.0);
+  ASSERT_LT(lower, higher);
+  EstimatorOptions options;
+  options.init = InitMethod::kUniform;
+  options.uniform_value = 10.0;
+  const EstimatorSummary summary = Estimate(scene, target, options);
+  EXPECT_EQ(summary.termination, Termination::kConverged) << summary.message;
+  EXPECT_LE(summary.final_rms, lower);
+  EXPECT_TRUE(test::HasNote(summary, "along the valley"));
+  options.max_checked_parameters = 0;
+  EXPECT_GT(Estimate(scene, target, options).final_rms, lower);
+}
+
 }  // namespace
 }  // namespace dpe

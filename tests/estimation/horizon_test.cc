@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "dpe/estimation/estimator.h"
 #include "estimation/fit_support.h"
@@ -60,6 +61,36 @@ TEST(HorizonTest, StiffnessesThatMakeUpForEachOtherAreFoundInFewIterations) {
   EXPECT_LT(summary.final_rms, 1e-11);
   EXPECT_LT(ParameterDeviationPercent(summary, scene), 1e-3);
   EXPECT_LT(summary.iterations, 60);
+}
+
+// Every element is off by the same factor of 1e5: hundreds of unknowns that are damped
+// together do not get there, one for all of them does at once.
+class FarUniformStartTest : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(FarUniformStartTest, IsLeftByOneValueForAllElements) {
+  Scene scene = test::MakeDerivativeScene("flag", 6);
+  ApplySettings(GetParam(), &scene);
+  EstimatorOptions options = FromUniformStart(Horizon::kAuto);
+  options.uniform_value = 1e-4;
+  const EstimatorSummary summary = Estimate(scene, test::OwnMotion(scene, 20), options);
+  EXPECT_EQ(summary.termination, Termination::kConverged) << summary.message;
+  EXPECT_LT(summary.final_rms, 1e-10);
+  EXPECT_LT(ParameterDeviationPercent(summary, scene), 1e-3);
+  EXPECT_TRUE(test::HasNote(summary, "one value for all of them was fitted first"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Settings, FarUniformStartTest,
+                         ::testing::Values("Ln", "nL", "LL"),
+                         [](const auto& info) { return std::string(info.param); });
+
+// A start that says something of each element is kept.
+TEST(HorizonTest, ElementsThatDifferAreNotMadeAlike) {
+  const Scene scene = FlagWithLocalStiffness();
+  EstimatorOptions options = FromUniformStart(Horizon::kGrow);
+  options.init_perturbation = 0.1;
+  const EstimatorSummary summary =
+      Estimate(scene, test::OwnMotion(scene, kFrames), options);
+  EXPECT_FALSE(test::HasNote(summary, "one value for all"));
 }
 
 // Where the first frames were not seen, windows in the middle of the motion are fitted.
