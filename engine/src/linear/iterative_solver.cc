@@ -17,8 +17,8 @@ constexpr double kReduction = 1e-5;
 // Where verification finds that rounding has kept the residual this many times above
 // the recursion, the next time it comes that much earlier.
 constexpr double kLeastReduction = 1e-2;
-// Where a restart's directions do not reduce the residual by this factor a
-// factorisation is the better way.
+// Where a restart's directions do not bring the residual closer to its targets by this
+// factor a factorisation is the better way.
 constexpr double kProgress = 0.1;
 
 double Norm(const std::vector<double>& x) {
@@ -30,7 +30,8 @@ double Norm(const std::vector<double>& x) {
 bool IterativeSolver::Prepare(const std::vector<double>& values, bool transposed) {
   values_ = values.data();
   transposed_ = transposed;
-  return multigrid_.Compute(pattern_, values_, transposed);
+  return scaling_.Compute(values_, transposed) &&
+         multigrid_.Compute(pattern_, values_, transposed);
 }
 
 double IterativeSolver::TrueResidual(const double* b, const double* z) {
@@ -108,19 +109,25 @@ IterativeResult IterativeSolver::Solve(double tolerance, const double* b, double
   residual_.resize(n);
   r_.resize(n);
   const double target = tolerance * std::sqrt(Dot(n, b, b));
+  const double scaled_target = tolerance * scaling_.Norm(b);
   IterativeResult result;
   double norm = Start(b, z);
+  double excess_before = std::numeric_limits<double>::infinity();
   double least_reduction = kReduction;
   while (std::isfinite(norm)) {
-    result.converged = norm <= target;
+    const double scaled_norm = scaling_.Norm(residual_.data());
+    result.converged = norm <= target && scaled_norm <= scaled_target;
     if (result.converged) break;
-    const double reduction = std::max(kMargin * target / norm, least_reduction);
+    // How far above its target the worse of the two is.
+    const double excess = std::max(norm / target, scaled_norm / scaled_target);
+    if (!(excess <= kProgress * excess_before)) break;
+    const double reduction = std::max(kMargin / excess, least_reduction);
     const double norm_before = norm;
     const bool ok = Reduce(reduction, norm, z);
     result.iterations += num_directions_;
     if (!ok) break;
     norm = TrueResidual(b, z);
-    if (!(norm <= target) && !(norm <= kProgress * norm_before)) break;
+    excess_before = excess;
     least_reduction =
         std::min(std::max(norm / norm_before, kReduction), kLeastReduction);
   }

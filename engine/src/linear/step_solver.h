@@ -2,9 +2,9 @@
 // ways behind one interface:
 //   - directly (direct_solver.h), to rounding level;
 //   - for large systems, or when asked for, by a Krylov method (iterative_solver.h), to
-//   a
-//     relative residual of `tolerance`, forward and backward: then derivatives are
-//     exact to that tolerance. Where it fails the direct way takes over.
+//     a relative residual of `tolerance`, of the equations as they are and scaled by
+//     their diagonal blocks, forward and backward: then derivatives are exact to that
+//     tolerance. Where it fails the direct way takes over.
 #ifndef DPE_ENGINE_LINEAR_STEP_SOLVER_H_
 #define DPE_ENGINE_LINEAR_STEP_SOLVER_H_
 
