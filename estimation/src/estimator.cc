@@ -292,16 +292,22 @@ class Fit {
   // With a handful of parameters the whole range can be looked at, so that a local
   // minimum or a plateau is not taken for the answer.
   void CheckForBetterBasins() {
-    for (int round = 0; round < kMaxBasins && HasFewParameters(); ++round) {
-      if (!summary_.usable() || fit_.IsAtRounding()) return;
-      converged_ = {evaluator()->best_cost(), fit_.best_rms()};
+    if (!HasFewParameters()) return;
+    for (int round = 0; round < kMaxBasins && CanBeBetter(); ++round) {
       const Eigen::VectorXd better = FindBetterTrialPoint(&stop_, evaluator());
-      const bool is_better =
-          better.size() > 0
-              ? MinimiseFrom(better, "log-spaced trial values showed a better basin")
-              : MinimiseFromProfiles();
-      if (!is_better) return;
+      if (better.size() == 0 ||
+          !MinimiseFrom(better, "log-spaced trial values showed a better basin")) {
+        break;
+      }
     }
+    for (int round = 0; round < kMaxBasins && CanBeBetter(); ++round) {
+      if (!MinimiseFromProfiles()) break;
+    }
+  }
+
+  bool CanBeBetter() {
+    converged_ = {evaluator()->best_cost(), fit_.best_rms()};
+    return summary_.usable() && !fit_.IsAtRounding();
   }
 
   // From the lowest few minima that the profiles of the parameters have beside the
