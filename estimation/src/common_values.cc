@@ -1,5 +1,6 @@
 #include "common_values.h"
 
+#include "better_basins.h"
 #include "dpe/estimation/joint_layout.h"
 #include "starting_point.h"
 
@@ -50,12 +51,18 @@ bool Fit(const Eigen::VectorXd& start, OptimizerContext* context) {
     if (!screened.ok) return false;
     next = screened.coordinates;
   }
-  for (int round = 0; round < kMaxBasins && next.size() > 0; ++round) {
-    context->problem()->set_coordinates(next);
-    if (!evaluator->Evaluate(next)) break;
-    if (!context->fit->IsAtRounding()) Minimize(/*use_lm=*/true, context);
-    if (!are_few || context->is_over() || context->fit->IsAtRounding()) break;
-    next = FindBetterTrialPoint(context->stop, evaluator);
+  context->problem()->set_coordinates(next);
+  if (!evaluator->Evaluate(next)) return false;
+  EstimatorSummary summary;
+  const auto minimise = [&] {
+    const OptimizerResult result = Minimize(/*use_lm=*/true, context);
+    summary.termination = result.termination;
+  };
+  if (!context->fit->IsAtRounding()) minimise();
+  if (are_few && !context->is_over()) {
+    // Where a few frames leave a valley, its end is no better a start than this.
+    SearchBetterBasins({context->fit, context->stop, minimise, &summary,
+                        /*along_valleys=*/false});
   }
   return evaluator->best_coordinates().size() > 0;
 }

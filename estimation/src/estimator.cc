@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "better_basins.h"
 #include "dpe/engine/parameters.h"
 #include "fit_checkpoints.h"
 #include "fit_problem.h"
@@ -17,7 +18,6 @@
 #include "horizon.h"
 #include "optimizers.h"
 #include "prior_rows.h"
-#include "profile_scan.h"
 #include "shooting_start.h"
 #include "starting_point.h"
 #include "stop_control.h"
@@ -289,62 +289,10 @@ class Fit {
     if (summary_.usable()) SaveCheckpoint("fit", context_, context_.last_radius);
   }
 
-  // With a handful of parameters the whole range can be looked at, so that a local
-  // minimum or a plateau is not taken for the answer.
+  // So that a local minimum or a plateau is not taken for the answer.
   void CheckForBetterBasins() {
     if (!HasFewParameters()) return;
-    for (int round = 0; round < kMaxBasins && CanBeBetter(); ++round) {
-      const Eigen::VectorXd better = FindBetterTrialPoint(&stop_, evaluator());
-      if (better.size() == 0 ||
-          !MinimiseFrom(better, "log-spaced trial values showed a better basin")) {
-        break;
-      }
-    }
-    for (int round = 0; round < kMaxBasins && CanBeBetter(); ++round) {
-      if (!MinimiseFromProfiles()) break;
-    }
-  }
-
-  bool CanBeBetter() {
-    converged_ = {evaluator()->best_cost(), fit_.best_rms()};
-    return summary_.usable() && !fit_.IsAtRounding();
-  }
-
-  // From the lowest few minima that the profiles of the parameters have beside the
-  // answer, until one leads lower.
-  bool MinimiseFromProfiles() {
-    int num_tried = 0;
-    for (const Eigen::VectorXd& minimum : ProfileMinima(&stop_, evaluator())) {
-      if (num_tried++ == kMaxBasins || stop_.Poll()) return false;
-      if (MinimiseFrom(minimum,
-                       "along the valley that it lies in there is a lower "
-                       "minimum")) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  // True if the cost is now lower than where the fit had converged; else all is as it
-  // was.
-  bool MinimiseFrom(const Eigen::VectorXd& coordinates, const std::string& reason) {
-    const Termination termination = summary_.termination;
-    const std::string message = summary_.message;
-    problem()->set_coordinates(coordinates);
-    if (evaluator()->Evaluate(coordinates)) Minimise();
-    if (evaluator()->best_cost() < (1.0 - kBetter) * converged_.cost) {
-      std::ostringstream note;
-      note << "the fit had converged to RMS " << converged_.rms << " m; " << reason
-           << ", from which it was repeated";
-      summary_.notes.push_back(note.str());
-      return true;
-    }
-    problem()->set_coordinates(evaluator()->best_coordinates());
-    if (!stop_.stopped()) {
-      summary_.termination = termination;
-      summary_.message = message;
-    }
-    return false;
+    SearchBetterBasins({&fit_, &stop_, [this] { Minimise(); }, &summary_});
   }
 
   void Finish() {
@@ -402,9 +350,6 @@ class Fit {
   StartingPoint start_;
   EstimatorSummary summary_;
   bool use_lm_ = true;
-  struct {
-    double cost = 0.0, rms = 0.0;
-  } converged_;  // before better basins were looked for
 };
 
 EstimatorSummary EstimateCaptures(const std::vector<CaptureView>& captures,

@@ -71,8 +71,6 @@ bool AllAreComplete(const std::vector<FitCapture>& captures);
 // start at 0.
 StartingPoint ScreenStartingPoints(StopControl* stop, TrajectoryEvaluator* evaluator);
 
-// How often a fit of few parameters is repeated from a better trial point, at most.
-constexpr int kMaxBasins = 3;
 // By what fraction of the cost a point has to be lower to be worth another fit.
 constexpr double kBetter = 1e-6;
 
