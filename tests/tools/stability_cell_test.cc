@@ -12,6 +12,7 @@
 #include <string>
 
 #include "experiments/stability/stability.h"
+#include "experiments/stability/stability_cells.h"
 #include "experiments/stability/stability_report.h"
 
 namespace dpe::experiments {

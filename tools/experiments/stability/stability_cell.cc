@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "dpe/engine/simulator.h"
+#include "experiments/stability/contact.h"
 #include "experiments/stability/reference.h"
 #include "experiments/stability/stability_scene.h"
 #include "experiments/stability/step_limit.h"
@@ -45,6 +46,13 @@ Scene Shifted(const StabilityScene& s) {
   return scene;
 }
 
+// Where the motion would be had the origin not been shifted.
+Eigen::MatrixXd Unshifted(const StabilityScene& s, const Trajectory& trajectory) {
+  Eigen::MatrixXd x = trajectory.positions[0];
+  for (int i = 0; i < x.rows(); ++i) x.row(i).array() -= s.shift[i % 3];
+  return x;
+}
+
 // Returns true if the rollout is stable.
 bool Judge(const StabilityScene& s, const Trajectory& trajectory,
            const Reference& reference, Record* row) {
@@ -55,8 +63,7 @@ bool Judge(const StabilityScene& s, const Trajectory& trajectory,
     row->Set("failed_step", trajectory.status.step);
     return false;
   }
-  Eigen::MatrixXd x = trajectory.positions[0];
-  for (int i = 0; i < x.rows(); ++i) x.row(i).array() -= s.shift[i % 3];
+  const Eigen::MatrixXd x = Unshifted(s, trajectory);
   if (!x.allFinite()) {
     row->Set("result", "silent");
     row->Set("why", "the status is ok, but the states are not finite");
@@ -97,22 +104,23 @@ std::string Agreement(const StepLimit& limit, double h, double growth, bool is_s
   return growth < kSeenGrowth ? "agrees" : "disagrees";
 }
 
-// Beyond this step symplectic Euler is unstable while a vertex is in contact: the
-// penalty K of a collider adds K / m to w^2. A contact that stiff is shorter than a
-// step, so that the samples of PredictStepLimitAlong fall between contacts, and it ends
-// before a mode has grown for long.
-double ContactLimit(const Scene& scene) {
-  double limit = std::numeric_limits<double>::infinity();
-  for (const Collider& collider : scene.colliders) {
-    const double least_mass = scene.objects[0].mass.minCoeff();
-    limit = std::min(limit, 2.0 * std::sqrt(least_mass / collider.stiffness));
+// The states of a rollout up to the first that is further from the start than the
+// reference's motion by kBlownUp: what comes after has nothing to do with the scene.
+Eigen::MatrixXd Sensible(const StabilityScene& s, const Eigen::MatrixXd& positions,
+                         const Reference& reference) {
+  const ClothObject& object = s.scene.objects[0];
+  Eigen::Index end = 0;
+  while (end < positions.cols() && positions.col(end).allFinite() &&
+         RmsDifference(object, positions.col(end), object.positions) <=
+             kBlownUp * reference.motion) {
+    ++end;
   }
-  return limit;
+  return positions.leftCols(end);
 }
 
-void AddPrediction(const StabilityScene& s, const Reference& reference, bool is_stable,
-                   Record* row) {
-  const StepLimit limit = PredictStepLimitAlong(s.scene, reference.positions);
+void AddPrediction(const StabilityScene& s, const Reference& reference,
+                   const Eigen::MatrixXd& own, bool is_stable, Record* row) {
+  const StepLimit limit = PredictStepLimitAlong(s.scene, reference.positions, own);
   const double h = s.scene.step_length();
   const int steps = (s.num_frames - 1) * s.scene.steps_per_frame;
   const double growth = std::exp(std::min(steps * std::log(limit.factor), 690.0));
@@ -123,12 +131,8 @@ void AddPrediction(const StabilityScene& s, const Reference& reference, bool is_
   // A force without a value says nothing about steps.
   const bool is_undefined =
       row->Text("why", "").find("are in the same place") != std::string::npos;
-  std::string agreement =
-      is_undefined ? "another failure" : Agreement(limit, h, growth, is_stable);
-  if (agreement == "disagrees" && h > ContactLimit(s.scene)) {
-    agreement = is_stable ? "contact ends first" : "agrees in contact";
-  }
-  row->Set("agreement", agreement);
+  row->Set("agreement",
+           is_undefined ? "another failure" : Agreement(limit, h, growth, is_stable));
 }
 
 void AddGradient(const Scene& shifted, int num_frames,
@@ -151,7 +155,7 @@ Record EmptyRow() {
   Record row;
   for (const char* text : {"result", "why"}) row.Set(text, "");
   for (const char* number : {"failed_frame", "failed_step"}) row.Set(number, -1);
-  for (const char* number : {"error", "reference_error", "motion"}) {
+  for (const char* number : {"error", "reference_error", "motion", "penetration"}) {
     row.Set(number, kNan);
   }
   row.Set("reference", "");
@@ -190,7 +194,11 @@ Record RunStabilityCell(const StabilityCell& cell,
         ComputeReference(s.scene, s.num_frames, 0.2 * kAccurate);
     AddReference(reference, &row);
     const bool is_stable = Judge(s, trajectory, reference, &row);
-    if (IsExplicit(cell.method)) AddPrediction(s, reference, is_stable, &row);
+    const Eigen::MatrixXd own = Sensible(s, Unshifted(s, trajectory), reference);
+    if (!s.scene.colliders.empty()) {
+      row.Set("penetration", ContactProbe(s.scene).Deepest(own));
+    }
+    if (IsExplicit(cell.method)) AddPrediction(s, reference, own, is_stable, &row);
     if (is_stable) AddGradient(shifted, s.gradient_frames, derivatives, &row);
   } catch (const SceneError& error) {
     row.Set("result", "refused");
