@@ -55,9 +55,10 @@ TEST(StabilityAdviceTest, RangesEndAtTestedValuesAndShareNone) {
   const auto line = LineOf(AdviceTable(rows), "drag");
   ASSERT_EQ(line.size(), 3u);
   EXPECT_EQ(line[1], "0 ... 1: symplectic_euler; 10 ... 100: linearly_implicit_euler");
-  EXPECT_EQ(line[2],
-            "explicit_euler, symplectic_euler at 10, 100: leaves the range of finite "
-            "numbers, its steps being too long");
+  EXPECT_EQ(
+      line[2],
+      "explicit_euler, symplectic_euler at 10, 100: the simulation left the range "
+      "of finite numbers: steps too long");
 }
 
 TEST(StabilityAdviceTest, WhereNothingIsAccurateItSaysWhatIsLeastOff) {
@@ -83,7 +84,8 @@ TEST(StabilityAdviceTest, WhereSpringEndsMeetNothingIsToBeTrusted) {
   EXPECT_THAT(line[1], testing::StartsWith("0: none"));
   EXPECT_THAT(line[1], Not(HasSubstr("tr_bdf2")));
   EXPECT_THAT(line[1], HasSubstr("1e-09 ... 0.001: symplectic_euler"));
-  EXPECT_THAT(line[2], HasSubstr("at 0: the ends of a spring are in the same place"));
+  EXPECT_THAT(line[2],
+              HasSubstr("finite numbers: the ends of a spring are in the same place"));
 }
 
 TEST(StabilityAdviceTest, AWrongGradientIsNotTrusted) {
@@ -123,7 +125,7 @@ TEST(StabilityPlotsTest, EnergyIsPlottedAsWhatItIsOffBy) {
     EXPECT_EQ(plot.x_label, "time (s)");
     ASSERT_EQ(plot.series.size(), 1u);
     ASSERT_EQ(plot.series[0].y.size(), 3u);
-    EXPECT_LT(plot.series[0].y[0], 1e-15);
+    EXPECT_EQ(plot.series[0].y[0], 0.0);  // is left out on a logarithmic axis
     EXPECT_EQ(plot.series[0].y[1], 0.25);
     EXPECT_EQ(plot.series[0].y[2], 0.5);
     return;

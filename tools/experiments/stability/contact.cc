@@ -67,7 +67,9 @@ std::vector<ContactState> ContactStates(const Scene& scene,
     if (state.count++ == 0) state.frame = static_cast<int>(f);
   }
   std::vector<ContactState> states;
-  for (const auto& [touching, state] : by_vertices) states.push_back(state);
+  for (const auto& [touching, state] : by_vertices) {
+    states.push_back({state.frame, state.count, touching});
+  }
   std::sort(states.begin(), states.end(),
             [](const ContactState& a, const ContactState& b) {
               return a.count != b.count ? a.count > b.count : a.frame < b.frame;

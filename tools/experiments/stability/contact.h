@@ -35,6 +35,7 @@ class ContactProbe {
 struct ContactState {
   int frame = 0;  // the first of them
   int count = 0;
+  std::vector<bool> touching;  // per vertex
 };
 
 // @param positions  3N x frames

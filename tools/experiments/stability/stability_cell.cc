@@ -22,6 +22,10 @@ constexpr double kNearLimit = 0.1;
 // A mode that grows by less over the rollout may go unseen, one that grows by more not.
 constexpr double kSeenGrowth = 1e6;
 
+// An error as large as the motion leaves nothing of it: growth that ended with a
+// contact has got that far.
+constexpr double kNothingLeft = 1.0;
+
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 bool IsExplicit(IntegrationMethod method) {
@@ -97,11 +101,14 @@ bool Judge(const StabilityScene& s, const Trajectory& trajectory,
   return true;
 }
 
-std::string Agreement(const StepLimit& limit, double h, double growth, bool is_stable) {
+// @param error  of the motion if it is stable, as a fraction of the motion
+std::string Agreement(const StepLimit& limit, double h, double growth, bool is_stable,
+                      double error) {
   if (std::abs(h / limit.limit - 1.0) <= kNearLimit) return "at the limit";
   if (h < limit.limit) return is_stable ? "agrees" : "disagrees";
-  if (!is_stable) return growth > 1.5 ? "agrees" : "disagrees";
-  return growth < kSeenGrowth ? "agrees" : "disagrees";
+  const bool is_seen = !is_stable || error > kNothingLeft;
+  if (is_seen) return growth > 1.5 ? "agrees" : "disagrees";
+  return growth < kSeenGrowth ? "too slow to see" : "disagrees";
 }
 
 // The states of a rollout up to the first that is further from the start than the
@@ -131,8 +138,9 @@ void AddPrediction(const StabilityScene& s, const Reference& reference,
   // A force without a value says nothing about steps.
   const bool is_undefined =
       row->Text("why", "").find("are in the same place") != std::string::npos;
-  row->Set("agreement",
-           is_undefined ? "another failure" : Agreement(limit, h, growth, is_stable));
+  row->Set("agreement", is_undefined ? "another failure"
+                                     : Agreement(limit, h, growth, is_stable,
+                                                 row->Number("error", 0.0)));
 }
 
 void AddGradient(const Scene& shifted, int num_frames,

@@ -109,12 +109,10 @@ Table LimitTable(const std::vector<Row>& rows) {
   table.name = "stability_limits";
   table.caption =
       "Explicit methods: the predicted limit of the step (the least over the motion, "
-      "its "
-      "states of contact included), by what factor the predicted unstable modes grow "
-      "over the rollout, and what happened. They agree if a rollout within the limit "
-      "is "
-      "stable, and one beyond it is not; but modes that grow by less than 1e6, from "
-      "rounding, may go unseen.";
+      "its states of contact included), by what factor the predicted unstable modes "
+      "grow over the rollout, and what happened. They agree if a rollout within the "
+      "limit is stable, and one beyond it fails or is off by more than the motion. "
+      "Modes that grow by less than 1e6 over the rollout may be too slow to see.";
   table.columns = {"axis",      "value",  "method",   "w_max (rad/s)", "limit (s)",
                    "predicted", "growth", "observed", "agreement"};
   for (const Row& row : rows) {

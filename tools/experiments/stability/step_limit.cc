@@ -193,12 +193,15 @@ StepLimit PredictStepLimitAlong(const Scene& scene, const Eigen::MatrixXd& posit
     log_sum += add(positions, std::max<Eigen::Index>(last * sample / kSamples, 1));
     ++samples;
   }
-  double mean = log_sum / samples;
+  Eigen::VectorXd in_contact = Eigen::VectorXd::Zero(object.num_vertices());
   for (const ContactState& state : ContactStates(scene, own, kContactStates)) {
-    const double share = static_cast<double>(state.count) / static_cast<double>(last);
-    mean += share * add(own, state.frame);
+    const double growth = state.count * add(own, state.frame);
+    for (int i = 0; i < object.num_vertices(); ++i) {
+      if (state.touching[i]) in_contact[i] += growth;
+    }
   }
-  worst.factor = std::exp(mean);
+  worst.factor =
+      std::exp(log_sum / samples + in_contact.maxCoeff() / static_cast<double>(last));
   return worst;
 }
 

@@ -51,8 +51,9 @@ StepLimit PredictStepLimit(const Scene& scene, const Eigen::VectorXd& x,
 //
 // A contact of stiffness K adds K / m to w^2, but may be shorter than a step of either
 // motion. So states of contact are those that the method at hand steps into itself, all
-// of them that differ in which vertices touch, and count with as many steps as it is in
-// them.
+// of them that differ in which vertices touch. What grows in contact is the motion of
+// the vertices that touch, and only while they do: the factor takes in those of the
+// steps in contact of the one vertex for which their product is largest.
 //
 // @param positions  3N x frames, of the reference; velocities are their differences
 // @param own        3N x frames, of the method at hand, as far as it makes sense; the
