@@ -72,6 +72,15 @@ TEST(StabilityAdviceTest, WhereNothingIsAccurateItSaysWhatIsLeastOff) {
   EXPECT_THAT(LineOf(TrustTable(rows), "drag")[2], HasSubstr("implicit_euler), 20 %"));
 }
 
+TEST(StabilityAdviceTest, AMethodThatIsBarelyAccurateIsNamedSo) {
+  std::vector<Row> rows = AccurateRows("drag");
+  for (Row& row : rows) {
+    if (row.Number("value", 0.0) == 100.0) row.Set("error", 0.046);
+  }
+  EXPECT_EQ(LineOf(AdviceTable(rows), "drag")[1],
+            "0 ... 10: symplectic_euler; 100: symplectic_euler, barely");
+}
+
 // A method that happens to step over the place is no advice.
 TEST(StabilityAdviceTest, WhereSpringEndsMeetNothingIsToBeTrusted) {
   std::vector<Row> rows = AccurateRows("coincident");  // 0, 1e-9, 1e-3
