@@ -21,8 +21,9 @@ constexpr double kDifference = 1e-5;
 constexpr double kSlow = 1e-3;
 // Frames of a motion at which the limit is taken, besides the first.
 constexpr int kSamples = 6;
-// Different states of contact of a motion at which it is taken, at most.
-constexpr int kContactStates = 8;
+// Different states of contact of a motion at which it is taken, at most: more than the
+// campaign's scenes come through before they end or blow up.
+constexpr int kContactStates = 40;
 
 // Force per mass at the free coordinates, M^-1/2 K M^-1/2 and the same of C.
 struct LinearForces {
@@ -200,8 +201,9 @@ StepLimit PredictStepLimitAlong(const Scene& scene, const Eigen::MatrixXd& posit
       if (state.touching[i]) in_contact[i] += growth;
     }
   }
-  worst.factor =
-      std::exp(log_sum / samples + in_contact.maxCoeff() / static_cast<double>(last));
+  worst.factor = std::exp(log_sum / samples +
+                          in_contact.maxCoeff() /
+                              static_cast<double>(std::max<Eigen::Index>(last, 1)));
   return worst;
 }
 
