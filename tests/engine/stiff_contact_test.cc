@@ -1,5 +1,5 @@
 // Derivatives in hard contact. A collider of stiffness K adds h^2 K n n^T to the step
-// matrix at the vertices that touch it, which may be 1e4 to 1e10 times their mass: the
+// matrix at the vertices that touch it, which may be 1e4 times their mass and more: the
 // equations of those vertices are then so much larger than all others that a residual
 // which is small beside them says nothing about the rest. What the Krylov method gives
 // must be what the factorisation and differences give all the same.

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "experiments/stability/stability.h"
+#include "experiments/stability/stability_cells.h"
 #include "experiments/stability/stability_report.h"
 
 namespace dpe::experiments {
@@ -185,7 +186,7 @@ TEST(StabilityReportTest, CellsThatCrashOrTimeOutAreRowsAndNotTrusted) {
     if (table.name != "stability_trust") continue;
     for (const auto& line : table.cells) {
       if (line[0] != "shift of the origin (m)" || line[1] != "1000") continue;
-      EXPECT_EQ(line[2], "tr_bdf2");
+      EXPECT_EQ(line[2], "tr_bdf2, 0 %");
       EXPECT_EQ(line[5], "1, 2");
     }
   }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "dpe/engine/simulator.h"
+#include "experiments/stability/contact.h"
 #include "experiments/stability/reference.h"
 #include "experiments/stability/stability_scene.h"
 #include "experiments/stability/step_limit.h"
@@ -20,6 +21,10 @@ constexpr double kTolerance = 1e-10;
 constexpr double kNearLimit = 0.1;
 // A mode that grows by less over the rollout may go unseen, one that grows by more not.
 constexpr double kSeenGrowth = 1e6;
+
+// An error as large as the motion leaves nothing of it: growth that ended with a
+// contact has got that far.
+constexpr double kNothingLeft = 1.0;
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -45,6 +50,13 @@ Scene Shifted(const StabilityScene& s) {
   return scene;
 }
 
+// Where the motion would be had the origin not been shifted.
+Eigen::MatrixXd Unshifted(const StabilityScene& s, const Trajectory& trajectory) {
+  Eigen::MatrixXd x = trajectory.positions[0];
+  for (int i = 0; i < x.rows(); ++i) x.row(i).array() -= s.shift[i % 3];
+  return x;
+}
+
 // Returns true if the rollout is stable.
 bool Judge(const StabilityScene& s, const Trajectory& trajectory,
            const Reference& reference, Record* row) {
@@ -55,8 +67,7 @@ bool Judge(const StabilityScene& s, const Trajectory& trajectory,
     row->Set("failed_step", trajectory.status.step);
     return false;
   }
-  Eigen::MatrixXd x = trajectory.positions[0];
-  for (int i = 0; i < x.rows(); ++i) x.row(i).array() -= s.shift[i % 3];
+  const Eigen::MatrixXd x = Unshifted(s, trajectory);
   if (!x.allFinite()) {
     row->Set("result", "silent");
     row->Set("why", "the status is ok, but the states are not finite");
@@ -90,29 +101,33 @@ bool Judge(const StabilityScene& s, const Trajectory& trajectory,
   return true;
 }
 
-std::string Agreement(const StepLimit& limit, double h, double growth, bool is_stable) {
+// @param error  of the motion if it is stable, as a fraction of the motion
+std::string Agreement(const StepLimit& limit, double h, double growth, bool is_stable,
+                      double error) {
   if (std::abs(h / limit.limit - 1.0) <= kNearLimit) return "at the limit";
   if (h < limit.limit) return is_stable ? "agrees" : "disagrees";
-  if (!is_stable) return growth > 1.5 ? "agrees" : "disagrees";
-  return growth < kSeenGrowth ? "agrees" : "disagrees";
+  const bool is_seen = !is_stable || error > kNothingLeft;
+  if (is_seen) return growth > 1.5 ? "agrees" : "disagrees";
+  return growth < kSeenGrowth ? "too slow to see" : "disagrees";
 }
 
-// Beyond this step symplectic Euler is unstable while a vertex is in contact: the
-// penalty K of a collider adds K / m to w^2. A contact that stiff is shorter than a
-// step, so that the samples of PredictStepLimitAlong fall between contacts, and it ends
-// before a mode has grown for long.
-double ContactLimit(const Scene& scene) {
-  double limit = std::numeric_limits<double>::infinity();
-  for (const Collider& collider : scene.colliders) {
-    const double least_mass = scene.objects[0].mass.minCoeff();
-    limit = std::min(limit, 2.0 * std::sqrt(least_mass / collider.stiffness));
+// The states of a rollout up to the first that is further from the start than the
+// reference's motion by kBlownUp: what comes after has nothing to do with the scene.
+Eigen::MatrixXd Sensible(const StabilityScene& s, const Eigen::MatrixXd& positions,
+                         const Reference& reference) {
+  const ClothObject& object = s.scene.objects[0];
+  Eigen::Index end = 0;
+  while (end < positions.cols() && positions.col(end).allFinite() &&
+         RmsDifference(object, positions.col(end), object.positions) <=
+             kBlownUp * reference.motion) {
+    ++end;
   }
-  return limit;
+  return positions.leftCols(end);
 }
 
-void AddPrediction(const StabilityScene& s, const Reference& reference, bool is_stable,
-                   Record* row) {
-  const StepLimit limit = PredictStepLimitAlong(s.scene, reference.positions);
+void AddPrediction(const StabilityScene& s, const Reference& reference,
+                   const Eigen::MatrixXd& own, bool is_stable, Record* row) {
+  const StepLimit limit = PredictStepLimitAlong(s.scene, reference.positions, own);
   const double h = s.scene.step_length();
   const int steps = (s.num_frames - 1) * s.scene.steps_per_frame;
   const double growth = std::exp(std::min(steps * std::log(limit.factor), 690.0));
@@ -123,12 +138,9 @@ void AddPrediction(const StabilityScene& s, const Reference& reference, bool is_
   // A force without a value says nothing about steps.
   const bool is_undefined =
       row->Text("why", "").find("are in the same place") != std::string::npos;
-  std::string agreement =
-      is_undefined ? "another failure" : Agreement(limit, h, growth, is_stable);
-  if (agreement == "disagrees" && h > ContactLimit(s.scene)) {
-    agreement = is_stable ? "contact ends first" : "agrees in contact";
-  }
-  row->Set("agreement", agreement);
+  row->Set("agreement", is_undefined ? "another failure"
+                                     : Agreement(limit, h, growth, is_stable,
+                                                 row->Number("error", 0.0)));
 }
 
 void AddGradient(const Scene& shifted, int num_frames,
@@ -151,7 +163,7 @@ Record EmptyRow() {
   Record row;
   for (const char* text : {"result", "why"}) row.Set(text, "");
   for (const char* number : {"failed_frame", "failed_step"}) row.Set(number, -1);
-  for (const char* number : {"error", "reference_error", "motion"}) {
+  for (const char* number : {"error", "reference_error", "motion", "penetration"}) {
     row.Set(number, kNan);
   }
   row.Set("reference", "");
@@ -190,7 +202,11 @@ Record RunStabilityCell(const StabilityCell& cell,
         ComputeReference(s.scene, s.num_frames, 0.2 * kAccurate);
     AddReference(reference, &row);
     const bool is_stable = Judge(s, trajectory, reference, &row);
-    if (IsExplicit(cell.method)) AddPrediction(s, reference, is_stable, &row);
+    const Eigen::MatrixXd own = Sensible(s, Unshifted(s, trajectory), reference);
+    if (!s.scene.colliders.empty()) {
+      row.Set("penetration", ContactProbe(s.scene).Deepest(own));
+    }
+    if (IsExplicit(cell.method)) AddPrediction(s, reference, own, is_stable, &row);
     if (is_stable) AddGradient(shifted, s.gradient_frames, derivatives, &row);
   } catch (const SceneError& error) {
     row.Set("result", "refused");

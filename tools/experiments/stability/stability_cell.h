@@ -33,10 +33,13 @@ constexpr double kBlownUp = 10.0;
 //   failed_frame, failed_step
 //   error, reference_error   fractions of the motion
 //   motion      m
+//   penetration m, the deepest that any vertex is in the collider at any frame, up to
+//               where the motion blows up; scenes with a collider
 //   reference   method and steps of it to one of the cell
-//   limit, omega_max, growth, prediction, agreement   explicit methods: see
-//   step_limit.h gradient    "right", "not decidable", "wrong", "refused", "" if not
-//   stable gradient_why, gradient_error, gradient_noise, gradient_identity
+//   limit, omega_max, growth, prediction, agreement
+//               explicit methods: see step_limit.h
+//   gradient    "right", "not decidable", "wrong", "refused", "" if not stable
+//   gradient_why, gradient_error, gradient_noise, gradient_identity
 Record RunStabilityCell(const StabilityCell& cell,
                         const DerivativeFunction& derivatives = EngineDerivatives);
 

@@ -1,64 +1,18 @@
 #include "experiments/stability/stability_report.h"
 
-#include <cmath>
-#include <cstdio>
 #include <map>
-#include <tuple>
 #include <utility>
 
-#include "dpe/engine/scene.h"
+#include "experiments/output/tables.h"
+#include "experiments/stability/stability_advice.h"
+#include "experiments/stability/stability_cells.h"
 #include "experiments/stability/stability_plots.h"
 #include "experiments/stability/stability_scene.h"
 
 namespace dpe::experiments {
 namespace {
 
-// Columns of the tables: methods, and solvers where there is a choice.
-struct Way {
-  int method;
-  const char* solver;
-};
-constexpr Way kWays[] = {{0, "cholesky"}, {1, "cholesky"}, {2, "cholesky"}, {2, "cg"},
-                         {3, "cholesky"}, {3, "cg"},       {4, "cholesky"}, {4, "cg"}};
-constexpr int kFirstImplicit = 2;
-// What to use, the cheapest step first. Explicit Euler costs what symplectic Euler does
-// and is never stable for longer steps.
-constexpr int kByCost[] = {1, 2, 3, 4};
-
-template <class... Numbers>
-std::string Text(const char* format, Numbers... numbers) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof(buffer), format, numbers...);
-  return buffer;
-}
-
-std::string MethodName(int method) {
-  return IntegrationMethodName(static_cast<IntegrationMethod>(method));
-}
-
-std::string WayName(const Way& way) {
-  const bool has_choice = way.method >= kFirstImplicit;
-  return MethodName(way.method) + (has_choice ? std::string(", ") + way.solver : "");
-}
-
-// Rows of one axis by value, method and solver.
-class Cells {
- public:
-  Cells(const std::vector<Row>& rows, const std::string& axis) {
-    for (const Row& row : rows) {
-      if (row.Text("kind", "") != "stability" || row.Text("axis", "") != axis) continue;
-      rows_[{row.Number("value", 0.0), row.Integer("integrator", -1),
-             row.Text("solver", "")}] = &row;
-    }
-  }
-  const Row* Find(double value, const Way& way) const {
-    const auto it = rows_.find({value, way.method, way.solver});
-    return it == rows_.end() ? nullptr : it->second;
-  }
-
- private:
-  std::map<std::tuple<double, int, std::string>, const Row*> rows_;
-};
+std::string ValueText(double value) { return FormatNumber(value, 6); }
 
 std::string CellText(const Row* row) {
   if (row == nullptr) return "-";
@@ -66,9 +20,9 @@ std::string CellText(const Row* row) {
   const double error = 100.0 * row->Number("error", 0.0);
   std::string text = result;
   if (result == "accurate" || result == "inaccurate") {
-    text += Text(" %.2g %%", error);
+    text += " " + FormatNumber(error, 2) + " %";
   } else if (result == "failed" && row->Has("failed_frame")) {
-    text += Text(" at frame %d", row->Integer("failed_frame", -1));
+    text += " at frame " + std::to_string(row->Integer("failed_frame", -1));
   }
   const std::string gradient = row->Text("gradient", "");
   if (!gradient.empty() && gradient != "right") text += ", gradient " + gradient;
@@ -87,7 +41,7 @@ Table ValueTable(const std::vector<Row>& rows) {
   for (const StabilityAxis& axis : StabilityAxes()) {
     const Cells cells(rows, axis.name);
     for (double value : axis.values) {
-      std::vector<std::string> line = {axis.label, Text("%g", value)};
+      std::vector<std::string> line = {axis.label, ValueText(value)};
       for (const Way& way : kWays) line.push_back(CellText(cells.Find(value, way)));
       table.cells.push_back(std::move(line));
     }
@@ -96,8 +50,8 @@ Table ValueTable(const std::vector<Row>& rows) {
 }
 
 std::string RangeText(double first, double last, const std::string& result) {
-  if (first == last) return Text("%g: ", first) + result;
-  return Text("%g ... %g: ", first, last) + result;
+  if (first == last) return ValueText(first) + ": " + result;
+  return ValueText(first) + " ... " + ValueText(last) + ": " + result;
 }
 
 // Neighbouring values with the same result as one range.
@@ -133,7 +87,7 @@ Table RangeTable(const std::vector<Row>& rows) {
       "are 2 ms unless the axis says otherwise.";
   table.columns = {"axis"};
   for (const Way& way : kWays) {
-    if (std::string(way.solver) == "cholesky") {
+    if (way.is_direct()) {
       table.columns.push_back(MethodName(way.method));
     }
   }
@@ -141,65 +95,10 @@ Table RangeTable(const std::vector<Row>& rows) {
     const Cells cells(rows, axis.name);
     std::vector<std::string> line = {axis.label};
     for (const Way& way : kWays) {
-      if (std::string(way.solver) != "cholesky") continue;
+      if (!way.is_direct()) continue;
       line.push_back(Ranges(cells, axis.values, way));
     }
     table.cells.push_back(std::move(line));
-  }
-  return table;
-}
-
-bool IsTrusted(const Row* row) {
-  return row != nullptr && ResultOf(*row) == "accurate" &&
-         row->Text("gradient", "") != "wrong";
-}
-
-// What to use at one value of an axis.
-std::string Advice(const Cells& cells, double value) {
-  for (int method : kByCost) {
-    if (IsTrusted(cells.Find(value, {method, "cholesky"}))) return MethodName(method);
-  }
-  int best = -1;
-  double least = 0.0;
-  for (int method : kByCost) {
-    const Row* row = cells.Find(value, {method, "cholesky"});
-    if (row == nullptr || ResultOf(*row) != "inaccurate") continue;
-    const double error = row->Number("error", 0.0);
-    if (best >= 0 && error >= least) continue;
-    best = method;
-    least = error;
-  }
-  if (best < 0) return "none";
-  return "shorter steps; least off: " + MethodName(best) +
-         Text(" (%.2g %%)", 100.0 * least);
-}
-
-Table TrustTable(const std::vector<Row>& rows) {
-  Table table;
-  table.name = "stability_trust";
-  table.caption =
-      "Which integrator to trust where: those within 5 % whose gradient is not wrong, "
-      "and the cheapest of them (explicit_euler left out: symplectic_euler costs the "
-      "same).";
-  table.columns = {"axis", "value", "use", "accurate", "stable, inaccurate", "fail"};
-  for (const StabilityAxis& axis : StabilityAxes()) {
-    const Cells cells(rows, axis.name);
-    for (double value : axis.values) {
-      std::string accurate, inaccurate, failed;
-      for (const Way& way : kWays) {
-        const Row* row = cells.Find(value, way);
-        if (row == nullptr || std::string(way.solver) != "cholesky") continue;
-        const std::string result = ResultOf(*row);
-        std::string& list =
-            IsTrusted(row) ? accurate
-            : result == "accurate" || result == "inaccurate" || result == "undecided"
-                ? inaccurate
-                : failed;
-        list += (list.empty() ? "" : ", ") + std::to_string(way.method);
-      }
-      table.cells.push_back({axis.label, Text("%g", value), Advice(cells, value),
-                             accurate, inaccurate, failed});
-    }
   }
   return table;
 }
@@ -209,20 +108,20 @@ Table LimitTable(const std::vector<Row>& rows) {
   Table table;
   table.name = "stability_limits";
   table.caption =
-      "Explicit methods: the predicted limit of the step (the least over the motion), "
-      "by what factor the predicted unstable modes grow over the rollout, and what "
-      "happened. A growth below 1e6 may go unseen.";
+      "Explicit methods: the predicted limit of the step (the least over the motion, "
+      "its states of contact included), by what factor the predicted unstable modes "
+      "grow over the rollout, and what happened. They agree if a rollout within the "
+      "limit is stable, and one beyond it fails or is off by more than the motion. "
+      "Modes that grow by less than 1e6 over the rollout may be too slow to see.";
   table.columns = {"axis",      "value",  "method",   "w_max (rad/s)", "limit (s)",
                    "predicted", "growth", "observed", "agreement"};
   for (const Row& row : rows) {
     if (row.Text("prediction", "").empty()) continue;
-    table.cells.push_back({row.Text("axis", ""), Text("%g", row.Number("value", 0.0)),
+    table.cells.push_back({row.Text("axis", ""), ValueText(row.Number("value", 0.0)),
                            MethodName(row.Integer("integrator", 0)),
-                           Text("%.3g", row.Number("omega_max", 0.0)),
-                           Text("%.3g", row.Number("limit", 0.0)),
-                           row.Text("prediction", ""),
-                           Text("%.2g", row.Number("growth", 0.0)), CellText(&row),
-                           row.Text("agreement", "")});
+                           FormatValue(row, "omega_max"), FormatValue(row, "limit"),
+                           row.Text("prediction", ""), FormatValue(row, "growth", 2),
+                           CellText(&row), row.Text("agreement", "")});
   }
   return table;
 }
@@ -235,7 +134,7 @@ Table ReasonTable(const std::vector<Row>& rows) {
   table.columns = {"axis", "value", "method", "solver", "result", "reason"};
   const auto add = [&](const Row& row, const std::string& what,
                        const std::string& why) {
-    table.cells.push_back({row.Text("axis", ""), Text("%g", row.Number("value", 0.0)),
+    table.cells.push_back({row.Text("axis", ""), ValueText(row.Number("value", 0.0)),
                            std::to_string(row.Integer("integrator", -1)),
                            row.Text("solver", ""), what, why});
   };
@@ -261,21 +160,42 @@ Table EnergyTable(const std::vector<Row>& rows) {
                    "angular momentum drift", "status"};
   for (const Row& row : rows) {
     if (row.Text("kind", "") != "energy") continue;
-    table.cells.push_back({MethodName(row.Integer("integrator", 0)),
-                           Text("%.4g", row.Number("energy_end", 0.0)),
-                           Text("%.1e", row.Number("momentum_drift", 0.0)),
-                           Text("%.1e", row.Number("angular_drift", 0.0)),
-                           row.Text("result", "") + " " + row.Text("why", "")});
+    table.cells.push_back(
+        {MethodName(row.Integer("integrator", 0)), FormatValue(row, "energy_end", 4),
+         FormatValue(row, "momentum_drift", 2), FormatValue(row, "angular_drift", 2),
+         row.Text("result", "") + " " + row.Text("why", "")});
   }
   return table;
 }
 
-}  // namespace
-
-std::string ResultOf(const Row& row) {
-  const std::string outcome = row.Text("outcome", "done");
-  return outcome == "done" ? row.Text("result", "missing") : outcome;
+// How often the Krylov solver came to what the direct one came to.
+std::string SolverText(const std::vector<Row>& rows) {
+  int same = 0, both = 0;
+  std::string others;
+  for (const StabilityAxis& axis : StabilityAxes()) {
+    const Cells cells(rows, axis.name);
+    for (double value : axis.values) {
+      for (const Way& way : kWays) {
+        if (way.is_direct()) continue;
+        const Row* krylov = cells.Find(value, way);
+        const Row* direct = cells.Find(value, {way.method, "cholesky"});
+        if (krylov == nullptr || direct == nullptr) continue;
+        ++both;
+        if (ResultOf(*krylov) == ResultOf(*direct)) {
+          ++same;
+        } else {
+          others += (others.empty() ? ", but not: " : ", ") + MethodName(way.method) +
+                    " at " + axis.label + " " + ValueText(value);
+        }
+      }
+    }
+  }
+  return "The Krylov solver (cg, tolerance 1e-10) came to the same result as the "
+         "direct one (cholesky) in " +
+         std::to_string(same) + " of " + std::to_string(both) + " cells" + others + ".";
 }
+
+}  // namespace
 
 std::string CountText(const std::vector<Row>& cells) {
   std::map<std::string, int> results, gradients, agreements;
@@ -301,9 +221,11 @@ std::string CountText(const std::vector<Row>& cells) {
 
 Results StabilityResults(const std::vector<Row>& rows) {
   Results results;
-  results.tables = {RangeTable(rows), TrustTable(rows),  ValueTable(rows),
-                    LimitTable(rows), ReasonTable(rows), EnergyTable(rows)};
-  results.tables[0].caption = CountText(rows) + "\n\n" + results.tables[0].caption;
+  results.tables = {MethodTable(rows), AdviceTable(rows), RangeTable(rows),
+                    TrustTable(rows),  ValueTable(rows),  LimitTable(rows),
+                    ReasonTable(rows), EnergyTable(rows)};
+  results.tables[0].caption =
+      CountText(rows) + "\n\n" + SolverText(rows) + "\n\n" + results.tables[0].caption;
   results.plots = StabilityPlots(rows);
   return results;
 }

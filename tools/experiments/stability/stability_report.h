@@ -9,10 +9,6 @@
 
 namespace dpe::experiments {
 
-// What came of a cell: its "result" (stability_cell.h), or the executor's outcome if
-// the job did not end ("crashed", "timed_out", "failed").
-std::string ResultOf(const Row& row);
-
 // How many cells came to which result, and how many gradients to which verdict: "438
 // accurate, 36 inaccurate ...".
 std::string CountText(const std::vector<Row>& cells);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dpe/engine/simulator.h"
+#include "experiments/stability/contact.h"
 
 namespace dpe::experiments {
 namespace {
@@ -20,6 +21,9 @@ constexpr double kDifference = 1e-5;
 constexpr double kSlow = 1e-3;
 // Frames of a motion at which the limit is taken, besides the first.
 constexpr int kSamples = 6;
+// Different states of contact of a motion at which it is taken, at most: more than the
+// campaign's scenes come through before they end or blow up.
+constexpr int kContactStates = 40;
 
 // Force per mass at the free coordinates, M^-1/2 K M^-1/2 and the same of C.
 struct LinearForces {
@@ -169,23 +173,37 @@ StepLimit PredictStepLimit(const Scene& scene, const Eigen::VectorXd& x,
   return result;
 }
 
-StepLimit PredictStepLimitAlong(const Scene& scene, const Eigen::MatrixXd& positions) {
+StepLimit PredictStepLimitAlong(const Scene& scene, const Eigen::MatrixXd& positions,
+                                const Eigen::MatrixXd& own) {
   const ClothObject& object = scene.objects[0];
   StepLimit worst = PredictStepLimit(scene, object.positions, object.velocities);
   double log_sum = std::max(std::log(worst.factor), 0.0);
-  int count = 1;
-  const Eigen::Index last = positions.cols() - 1;
-  for (int sample = 1; sample <= kSamples && last > 0; ++sample) {
-    const Eigen::Index f = std::max<Eigen::Index>(last * sample / kSamples, 1);
-    const StepLimit here =
-        PredictStepLimit(scene, positions.col(f),
-                         (positions.col(f) - positions.col(f - 1)) / scene.delta);
+  int samples = 1;
+  // Takes the state at a frame of a motion into `worst`. Returns log(factor).
+  const auto add = [&](const Eigen::MatrixXd& motion, Eigen::Index f) {
+    const Eigen::VectorXd v =
+        f == 0 ? object.velocities
+               : Eigen::VectorXd((motion.col(f) - motion.col(f - 1)) / scene.delta);
+    const StepLimit here = PredictStepLimit(scene, motion.col(f), v);
     worst.omega_max = std::max(worst.omega_max, here.omega_max);
     worst.limit = std::min(worst.limit, here.limit);
-    log_sum += std::max(std::log(here.factor), 0.0);
-    ++count;
+    return std::max(std::log(here.factor), 0.0);
+  };
+  const Eigen::Index last = positions.cols() - 1;
+  for (int sample = 1; sample <= kSamples && last > 0; ++sample) {
+    log_sum += add(positions, std::max<Eigen::Index>(last * sample / kSamples, 1));
+    ++samples;
   }
-  worst.factor = std::exp(log_sum / count);
+  Eigen::VectorXd in_contact = Eigen::VectorXd::Zero(object.num_vertices());
+  for (const ContactState& state : ContactStates(scene, own, kContactStates)) {
+    const double growth = state.count * add(own, state.frame);
+    for (int i = 0; i < object.num_vertices(); ++i) {
+      if (state.touching[i]) in_contact[i] += growth;
+    }
+  }
+  worst.factor = std::exp(log_sum / samples +
+                          in_contact.maxCoeff() /
+                              static_cast<double>(std::max<Eigen::Index>(last, 1)));
   return worst;
 }
 

@@ -47,10 +47,19 @@ StepLimit PredictStepLimit(const Scene& scene, const Eigen::VectorXd& x,
 
 // Over a motion, since what is stretched, hit or blown has other frequencies than what
 // rests: the largest omega_max, the least limit, and as factor the geometric mean of
-// the factors above 1, at the initial state and at some frames.
+// the factors above 1 over the steps, at the initial state and at some frames.
 //
-// @param positions  3N x frames; velocities are their differences
-StepLimit PredictStepLimitAlong(const Scene& scene, const Eigen::MatrixXd& positions);
+// A contact of stiffness K adds K / m to w^2, but may be shorter than a step of either
+// motion. So states of contact are those that the method at hand steps into itself, all
+// of them that differ in which vertices touch. What grows in contact is the motion of
+// the vertices that touch, and only while they do: the factor takes in those of the
+// steps in contact of the one vertex for which their product is largest.
+//
+// @param positions  3N x frames, of the reference; velocities are their differences
+// @param own        3N x frames, of the method at hand, as far as it makes sense; the
+//                   frames are steps
+StepLimit PredictStepLimitAlong(const Scene& scene, const Eigen::MatrixXd& positions,
+                                const Eigen::MatrixXd& own);
 
 }  // namespace dpe::experiments
 
