@@ -32,10 +32,26 @@ void FuzzMesh(const std::string& path) {
   });
 }
 
+// The engine and captures read the same triangles, with corners at the same places.
+void CompareTriangles(const TriangleMesh& mesh, const Capture& capture) {
+  const std::vector<std::array<int, 3>>& others = capture.mesh.triangles;
+  Require(mesh.triangles.size() == others.size(), "another number of triangles");
+  for (std::size_t t = 0; t < others.size(); ++t) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const int v = others[t][corner];
+      Require(v >= 0 && v < capture.num_vertices, "a triangle of no vertices");
+      Require(capture.samples[v].position ==
+                  mesh.positions.segment<3>(3 * mesh.triangles[t][corner]),
+              "a triangle of other vertices");
+    }
+  }
+}
+
 void FuzzRestShape(const std::string& path) {
   IsAccepted([&] {
     const Capture capture = ReadCapture(path);
-    if (capture.format != "OBJ") return;
+    if (capture.format != "OBJ" || capture.mesh.triangles.empty()) return;
+    CompareTriangles(LoadObjMesh(path), capture);
     for (const char* source : {"uv", "uv:2,3", path.c_str()}) {
       IsAccepted([&] {
         CheckCloth(

@@ -73,20 +73,18 @@ fuzz() {
 
 # Adds what the corpus lacks; large inputs and many of them stay out of the tree.
 merge() {
-  local target="$1" minimal="$build/corpus/$1.minimal" file count=0
+  local target="$1" minimal="$build/corpus/$1.minimal" size file count=0
   rm -rf "$minimal"
-  mkdir -p "$minimal"
-  "$build/bin/${target}_fuzzer" -merge=1 -max_len=1024 "$minimal" \
-      "$here/corpus/$target" "$build/corpus/$target" > "$build/findings/$target.merge" 2>&1
-  for file in $(ls -S -r "$minimal"); do
-    if ((count >= 16)); then break; fi
-    if [[ "$(wc -c < "$minimal/$file")" -gt 1024 ]] ||
-        cmp -s "$minimal/$file" "$here/corpus/$target/$file"; then
-      continue
-    fi
-    cp "$minimal/$file" "$here/corpus/$target/$file"
+  # Beside the seeds, inputs that reach something new, small ones first.
+  cp -r "$here/corpus/$target" "$minimal"
+  "$build/bin/${target}_fuzzer" -merge=1 -max_len=1024 "$minimal" "$build/corpus/$target" \
+      > "$build/findings/$target.merge" 2>&1
+  while read -r size file; do
+    if ((count >= 16 || size > 1024)); then break; fi
+    if [[ -e "$here/corpus/$target/$(basename "$file")" ]]; then continue; fi
+    cp "$file" "$here/corpus/$target/"
     count=$((count + 1))
-  done
+  done <<< "$(find "$minimal" -type f -printf '%s %p\n' | sort -n)"
   rm -rf "$minimal"
 }
 

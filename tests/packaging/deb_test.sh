@@ -27,7 +27,7 @@ rm -rf "$work/build"
 depends() {
   local name field dependencies
   field="$(dpkg-deb -f "$(package "$1")" Depends)"
-  dependencies="$(tr ',|' '\n\n' <<< "$field" | sed -E 's/^ *//; s/[ (].*//')"
+  dependencies="$(sed -E 's/^ *//; s/[ (].*//' <<< "${field//[,|]/$'\n'}")"
   shift
   for name in "$@"; do
     grep -qxE -- "$name" <<< "$dependencies" || fail "no dependency on $name in: $field"
@@ -54,7 +54,7 @@ contains dpe-viewer '^./usr/bin/dpe_viewer'
 
 # The mirror that apt uses; empty if none is named.
 mirror() {
-  sed -nE 's|^URIs: *(http[^ ]*/debian)/?( .*)?$|\1|p' /etc/apt/sources.list.d/*.sources \
+  sed -nE 's#^URIs: *(http[^ ]*/(debian|ubuntu))/?( .*)?$#\1#p' /etc/apt/sources.list.d/*.sources \
       2> /dev/null | head -n 1
   sed -nE 's/^deb +(\[[^]]*\] +)?(http[^ ]*)\/? .* main.*/\2/p' /etc/apt/sources.list \
       2> /dev/null | head -n 1
@@ -80,8 +80,13 @@ use_packages() {
   grep -q '^converged' <<< "$output" || fail "estimate_cloth: $output"
   in_root cat /tmp/results/report.json | grep -q '"success": true' ||
       fail "the report of estimate_cloth"
-  in_root dpe_viewer /usr/share/dpe/data/corners.txt --offscreen --frames 2 \
-      --output /tmp/frames > "$work/log" 2>&1 || { cat "$work/log" >&2; fail dpe_viewer; }
+  in_root dpe_viewer /usr/share/dpe/data/corners.txt --offscreen --first_frame 20 \
+      --size 320x200 --png /tmp/frame.png > "$work/log" 2>&1 || {
+    cat "$work/log" >&2
+    fail dpe_viewer
+  }
+  # A picture of a cloth; an empty one of this size has less than 1 kB.
+  (($(in_root cat /tmp/frame.png | wc -c) > 4000)) || fail "the picture is empty"
   in_root python3 -c 'import dpe
 motion = dpe.simulate(dpe.Scene.load("/usr/share/dpe/data/side.txt"), 5)
 assert motion.positions.shape == (5, 144, 3), motion.positions.shape' ||

@@ -5,7 +5,7 @@
 #   exports_test.sh LIBRARY FOLDER_WITH_include
 set -euo pipefail
 library="$1"
-headers="$(cat "$2"/include/dpe/*/*.h | sed 's|//.*||' | tr -s '\n ' ' ')"
+headers="$(cat "$2"/include/dpe/*/*.h | sed 's|//.*||; s|^#.*||' | tr -s '\n ' ' ')"
 
 # Marked classes, and marked functions by their last name.
 classes="$(grep -oE '(class|struct) DPE_[A-Z]+_API [A-Za-z]+' <<< "$headers" |
