@@ -2,13 +2,17 @@
 # A shared library shows what the public headers of its folder mark with DPE_..._API,
 # all of it, and nothing else: no class of src/, no template of the standard library.
 #
-#   exports_test.sh LIBRARY FOLDER_WITH_include
+#   exports_test.sh LIBRARY FOLDER_WITH_include [ANOTHER_ONE...]
+#
+# The other folders are those of libraries it uses: inline classes of theirs may be shown.
 set -euo pipefail
 library="$1"
 headers="$(cat "$2"/include/dpe/*/*.h | sed 's|//.*||; s|^#.*||' | tr -s '\n ' ' ')"
 
+others="$(shift 2; for folder in "$@"; do cat "$folder"/include/dpe/*/*.h; done |
+          sed 's|//.*||; s|^#.*||' | tr -s '\n ' ' ')"
 # Marked classes, and marked functions by their last name.
-classes="$(grep -oE '(class|struct) DPE_[A-Z]+_API [A-Za-z]+' <<< "$headers" |
+classes="$(grep -oE '(class|struct) DPE_[A-Z]+_API [A-Za-z]+' <<< "$headers $others" |
            awk '{print $3}' | sort -u)"
 functions="$(grep -oE 'DPE_[A-Z]+_API [^;{(]*\(' <<< "$headers" |
              sed -E 's/ *\($//; s/.*[^A-Za-z0-9_]([A-Za-z0-9_]+|operator<<)$/\1/' | sort -u)"

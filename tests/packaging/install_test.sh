@@ -61,7 +61,8 @@ if [[ "$kind" == shared ]]; then
         fail "$file is not a link to libdpe_$library.so.$major.$minor"
     readelf -d "$file" | grep -q "SONAME.*\[libdpe_$library.so.$major.$minor\]" ||
         fail "the SONAME of $file"
-    "$here/exports_test.sh" "$file" "$root/$library"
+    bash "$here/exports_test.sh" "$file" "$root/$library" "$root/engine" ||
+        fail "what $file shows"
   done
 fi
 

@@ -5,8 +5,11 @@ set -euo pipefail
 # shellcheck source=packaging.sh
 source "$(dirname "${BASH_SOURCE[0]}")/packaging.sh"
 
+# Without a build type, which dpe would choose for itself; the parent looks at what has
+# changed. dpe's own warnings are errors, as the compiler cache knows them.
 quietly cmake -S "$here/parent" -B "$work/build" -DDPE_SOURCE="$root" \
-    -DCONSUMER="$here/consumer" -DCMAKE_CXX_FLAGS= -DDPE_WARNINGS_AS_ERRORS=ON
+    -DCONSUMER="$here/consumer" -DDPE_WARNINGS_AS_ERRORS=ON
+quietly cmake -DCMAKE_BUILD_TYPE=Release "$work/build"
 
 # Options are cache entries, which a parent and its subdirectories share.
 grep -rhoE '^ *option\([A-Za-z0-9_]+' "$root"/CMakeLists.txt "$root"/*/CMakeLists.txt \

@@ -51,7 +51,8 @@ struct Seen {
 };
 
 bool FitsByOwnResidual(const dpe::Scene& scene, const dpe::Trajectory& motion) {
-  const int vertex = scene.objects[0].num_vertices() - 1;
+  int vertex = scene.objects[0].num_vertices() - 1;
+  while (scene.objects[0].is_fixed[vertex]) --vertex;
   dpe::TrajectoryCosts costs;
   for (int frame = 1; frame < kFrames; ++frame) {
     const Seen seen{motion.positions[0].col(frame).segment<3>(3 * vertex)};
