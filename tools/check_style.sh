@@ -125,12 +125,12 @@ check_dependencies() {
 }
 
 # The README of a room speaks for its src/ and its public headers; folders below src/
-# have their own.
+# have their own. Every file of a fuzzer's corpus is input.
 check_readmes() {
   local folder
   while IFS= read -r folder; do
     case "/$folder/" in
-      */include/* | */src/ | /.*) continue ;;
+      */include/* | */src/ | */fuzz/corpus/* | /.*) continue ;;
     esac
     if [[ ! -f "$folder/README.md" ]]; then
       report "$folder: has no README.md (what lives here, what may be touched)"

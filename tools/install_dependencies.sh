@@ -20,7 +20,8 @@ fail() {
 
 # A list per part of the project: libraries and programs, viewer, Python module,
 # run_experiments' plots; then the same for what only tests need (Slurm and munge for
-# campaigns on a cluster, Mono for the Unity package).
+# campaigns on a cluster, Mono for the Unity package; Doxygen for the API reference, clang
+# with libFuzzer, and what makes Debian packages and a clean root to try them in).
 apt_packages="g++ cmake make git pkg-config ccache libceres-dev libsuitesparse-dev
   libeigen3-dev libgoogle-glog-dev libgflags-dev nlohmann-json3-dev
   libopenblas-pthread-dev libtinyobjloader-dev
@@ -33,7 +34,8 @@ apt_test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format valgr
   python3-pytest python3-scipy python3-matplotlib python3-pip python3-setuptools
   python3-wheel
   slurmctld slurmd slurm-client munge
-  mono-mcs mono-runtime"
+  mono-mcs mono-runtime
+  doxygen clang llvm libclang-rt-dev binutils file dpkg-dev fakeroot debootstrap"
 dnf_packages="gcc-c++ cmake make git pkgconf-pkg-config ccache ceres-solver-devel
   suitesparse-devel eigen3-devel glog-devel gflags-devel json-devel openblas-devel
   tinyobjloader-devel
@@ -47,7 +49,8 @@ dnf_test_packages="gtest-devel gmock-devel google-benchmark-devel clang-tools-ex
   python3-pytest python3-scipy python3-matplotlib python3-pip python3-setuptools
   python3-wheel
   slurm-slurmctld slurm-slurmd slurm munge
-  mono-core"
+  mono-core
+  doxygen clang compiler-rt"
 brew_packages="cmake git pkg-config ccache ceres-solver suite-sparse eigen glog gflags
   nlohmann-json openblas tinyobjloader
   vulkan-loader vulkan-headers molten-vk glslang glfw glm
@@ -56,7 +59,8 @@ brew_packages="cmake git pkg-config ccache ceres-solver suite-sparse eigen glog 
 brew_test_packages="googletest google-benchmark clang-format
   vulkan-validationlayers ffmpeg
   scipy
-  mono"
+  mono
+  doxygen llvm"
 
 # as_root COMMAND...: directly where we are root, through sudo otherwise.
 as_root() {

@@ -22,6 +22,8 @@ inline T DotInLanes(size_t n, const T* x, const T* y) {
 
 }  // namespace
 
+inline namespace vectorized {
+
 DPE_VECTORIZE
 double Dot(size_t n, const double* x, const double* y) { return DotInLanes(n, x, y); }
 
@@ -72,4 +74,5 @@ void SubtractScaled(size_t n, const double* __restrict b, double a,
   for (size_t i = 0; i < n; ++i) y[i] = b[i] - a * y[i];
 }
 
+}  // namespace vectorized
 }  // namespace dpe

@@ -6,6 +6,9 @@
 #include <cstddef>
 
 namespace dpe {
+// GCC shows functions of DPE_VECTORIZE in a shared library whatever is said of their
+// visibility; by this namespace cmake/exports.map hides them.
+inline namespace vectorized {
 
 // x^T y.
 double Dot(size_t n, const double* x, const double* y);
@@ -24,6 +27,7 @@ void Scale(size_t n, double a, const double* x, float* y);
 // y := b - a y.
 void SubtractScaled(size_t n, const double* b, double a, double* y);
 
+}  // namespace vectorized
 }  // namespace dpe
 
 #endif  // DPE_ENGINE_LINEAR_VECTOR_KERNELS_H_

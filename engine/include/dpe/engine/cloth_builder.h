@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "dpe/engine/export.h"
 #include "dpe/engine/scene.h"
 
 namespace dpe {
@@ -28,13 +29,13 @@ enum class GridPlane {
 // A grid of `cols` (i, fast) x `rows` (j) vertices; vertex index cols * j + i; edges of
 // the square have length `size` (m), centred at the origin.
 // @throws SceneError for fewer than 2 rows or columns, or a size that is not positive.
-TriangleMesh MakeGrid(int rows, int cols, double size, GridPlane plane);
+DPE_ENGINE_API TriangleMesh MakeGrid(int rows, int cols, double size, GridPlane plane);
 
 // Reads vertices and triangles of a Wavefront OBJ file. Faces are triangulated;
 // vertices that belong to no face are left out (they would have no mass), and the
 // others keep their order.
 // @throws SceneError naming file, line where there is one, and problem.
-TriangleMesh LoadObjMesh(const std::string& path);
+DPE_ENGINE_API TriangleMesh LoadObjMesh(const std::string& path);
 
 struct ClothMaterial {
   double traction_stiffness = 50.0;  // K of edge springs: k = K vol / L^2, N/m
@@ -59,22 +60,23 @@ struct ClothMaterial {
 // @throws SceneError for a mesh without triangles, indices out of range, triangles
 //         without area, vertices without a triangle, opposite vertices that coincide,
 //         and material constants that are not finite or negative.
-ClothObject BuildClothFromMesh(const TriangleMesh& mesh, const ClothMaterial& material);
+DPE_ENGINE_API ClothObject BuildClothFromMesh(const TriangleMesh& mesh,
+                                              const ClothMaterial& material);
 
 // Makes the vertices fixed that lie in a closed box (with a margin of 1e-6 of the
 // cloth's extent, since corners of a box are typed with few digits).
 // @return  how many vertices the box holds
-int PinBox(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
-           ClothObject* cloth);
+DPE_ENGINE_API int PinBox(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
+                          ClothObject* cloth);
 
 // Makes vertices fixed. @throws SceneError for an index out of range.
-void PinVertices(const std::vector<int>& vertices, ClothObject* cloth);
+DPE_ENGINE_API void PinVertices(const std::vector<int>& vertices, ClothObject* cloth);
 
 // Makes all vertices free.
-void UnpinAll(ClothObject* cloth);
+DPE_ENGINE_API void UnpinAll(ClothObject* cloth);
 
 // A sphere to collide with. @param radius  m
-Collider SphereCollider(const Eigen::Vector3d& center, double radius);
+DPE_ENGINE_API Collider SphereCollider(const Eigen::Vector3d& center, double radius);
 
 // A smooth random field over vertices or spring midpoints: exp(s z), with z a sum of a
 // few random cosine waves, zero mean and unit variance over the points. The same seed
@@ -85,8 +87,9 @@ Collider SphereCollider(const Eigen::Vector3d& center, double radius);
 // @param wave_length  shortest wave length, m; the longest is three times as long
 // @param seed         of a std::mt19937
 // @throws SceneError  for a negative sigma or a wave length that is not positive
-Eigen::VectorXd SmoothRandomField(const Eigen::Matrix3Xd& points, double sigma,
-                                  double wave_length, std::uint32_t seed);
+DPE_ENGINE_API Eigen::VectorXd SmoothRandomField(const Eigen::Matrix3Xd& points,
+                                                 double sigma, double wave_length,
+                                                 std::uint32_t seed);
 
 // Spatial variation of a cloth's material, each quantity with a field of its own.
 struct MaterialVariation {
@@ -98,12 +101,13 @@ struct MaterialVariation {
 
 // Multiplies stiffness (at spring midpoints) and mass (at vertices) by smooth random
 // fields. A sigma of zero leaves the quantity as it is.
-void VaryMaterial(const MaterialVariation& variation, ClothObject* cloth);
+DPE_ENGINE_API void VaryMaterial(const MaterialVariation& variation,
+                                 ClothObject* cloth);
 
 enum class ScenePreset { kSide, kCorners, kFlag, kFlagNoWind };
 
 // The preset of a name: side, corners, flag, flag_no_wind. @throws SceneError
-ScenePreset ScenePresetFromName(const std::string& name);
+DPE_ENGINE_API ScenePreset ScenePresetFromName(const std::string& name);
 
 struct PresetOptions {
   int rows = 12;
@@ -113,11 +117,12 @@ struct PresetOptions {
 };
 
 // A complete scene of one grid cloth: pins, wind, frames and time step of the preset.
-Scene MakePresetScene(ScenePreset preset, const PresetOptions& options = {});
+DPE_ENGINE_API Scene MakePresetScene(ScenePreset preset,
+                                     const PresetOptions& options = {});
 
 // The preset's wind, frames and time step around a cloth of any shape. Its pins are the
 // cloth's own: a preset's pins are rows and corners of a grid.
-Scene MakeClothScene(ScenePreset preset, ClothObject cloth);
+DPE_ENGINE_API Scene MakeClothScene(ScenePreset preset, ClothObject cloth);
 
 }  // namespace dpe
 

@@ -16,6 +16,7 @@
 #include <memory>
 #include <vector>
 
+#include "dpe/engine/export.h"
 #include "dpe/engine/scene.h"
 #include "dpe/engine/simulator.h"
 #include "dpe/engine/trajectory.h"
@@ -24,7 +25,7 @@ namespace dpe {
 
 class LiveObject;
 
-class LiveSimulation {
+class DPE_ENGINE_API LiveSimulation {
  public:
   // Of the options, `only_estimated_objects` and `memory_limit_bytes` mean nothing
   // here: all objects are simulated, and nothing is kept.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dpe/engine/export.h"
 #include "dpe/engine/scene.h"
 
 namespace dpe {
@@ -21,12 +22,13 @@ enum class ParameterKind {
   kInitialPosition,  // m, elements are the 3N coordinates
 };
 
-std::string ParameterKindName(ParameterKind kind);  // "mass", "stiffness", ...
-std::string ParameterKindUnit(
+DPE_ENGINE_API std::string ParameterKindName(
+    ParameterKind kind);  // "mass", "stiffness", ...
+DPE_ENGINE_API std::string ParameterKindUnit(
     ParameterKind kind);  // "kg", "N/m", "1/s", "1", "m/s", "m"
 
 // True for quantities that are positive by nature (mass, stiffness, damping, drag).
-bool ParameterKindIsPositive(ParameterKind kind);
+DPE_ENGINE_API bool ParameterKindIsPositive(ParameterKind kind);
 
 // One group of unknowns of one kind: the unit in which users and optimisers see them.
 struct ParameterBlock {
@@ -46,7 +48,7 @@ struct ParameterBlock {
 // All blocks of a scene, in a fixed order: for each object mass, stiffness, damping,
 // drag, initial velocity, initial position (those that are estimated), then the scene's
 // wind.
-class ParameterLayout {
+class DPE_ENGINE_API ParameterLayout {
  public:
   ParameterLayout() = default;
   explicit ParameterLayout(const Scene& scene);
@@ -58,6 +60,7 @@ class ParameterLayout {
 
   // The parameter vector that describes `scene` best: the element's value for mode L,
   // the mean over the elements with influence for G and R.
+  // @param scene    one that the layout is of
   // @param segment  which of several motions the scene is; the blocks that others alone
   //                 have are left zero
   Eigen::VectorXd Extract(const Scene& scene, int segment = 0) const;
@@ -68,7 +71,9 @@ class ParameterLayout {
   bool Represents(const Scene& scene, int b) const;
 
   // Writes the values into the scene; elements without influence keep theirs.
-  // @param segment  as for Extract; the blocks that others alone have are left out
+  // @param parameters  layout order, SI units
+  // @param scene       one that the layout is of
+  // @param segment     as for Extract; the blocks that others alone have are left out
   void Insert(const Eigen::VectorXd& parameters, Scene* scene, int segment = 0) const;
 
   // True if `object` has an estimated parameter, or the wind is estimated and the

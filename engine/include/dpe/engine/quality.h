@@ -10,6 +10,7 @@
 #include <array>
 #include <string>
 
+#include "dpe/engine/export.h"
 #include "dpe/engine/scene.h"
 #include "dpe/engine/simulator.h"
 
@@ -39,16 +40,16 @@ struct QualityPreset {
   StepSettings estimation;
 };
 
-const std::array<QualityPreset, 4>& QualityPresets();
-const QualityPreset& PresetOf(Quality quality);
+DPE_ENGINE_API const std::array<QualityPreset, 4>& QualityPresets();
+DPE_ENGINE_API const QualityPreset& PresetOf(Quality quality);
 
 // draft, standard, accurate or reference.
 // @throws SceneError naming these
-Quality QualityFromName(const std::string& name);
+DPE_ENGINE_API Quality QualityFromName(const std::string& name);
 
 // Lets the settings take the place of the scene's and, unless null, of the options'.
-void ApplyStepSettings(const StepSettings& settings, Scene* scene,
-                       SimulatorOptions* options);
+DPE_ENGINE_API void ApplyStepSettings(const StepSettings& settings, Scene* scene,
+                                      SimulatorOptions* options);
 
 // The preset's settings for a simulation of this scene. Symplectic Euler is unstable
 // beyond a certain step length: where kStableShare of what is stable at the start
@@ -57,11 +58,11 @@ void ApplyStepSettings(const StepSettings& settings, Scene* scene,
 // step, takes over.
 constexpr int kMaxStretch = 4;
 constexpr double kStableShare = 0.7;
-StepSettings SimulationSettings(Quality quality, const Scene& scene);
+DPE_ENGINE_API StepSettings SimulationSettings(Quality quality, const Scene& scene);
 
 // "Quality draft: symplectic_euler, 8 steps per frame", of a scene that has its
 // settings.
-std::string QualityText(const std::string& name, const Scene& scene);
+DPE_ENGINE_API std::string QualityText(const std::string& name, const Scene& scene);
 
 }  // namespace dpe
 

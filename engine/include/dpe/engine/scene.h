@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "dpe/engine/export.h"
+
 namespace dpe {
 
 // Bad input: the message names the file (or "scene"), the place in it, the offending
 // value and what is accepted.
-class SceneError : public std::runtime_error {
+class DPE_ENGINE_API SceneError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -117,42 +119,43 @@ struct Scene {
 };
 
 // The letter of `optimizationSettings`: n, G, L or R.
-char ParameterModeLetter(ParameterMode mode);
+DPE_ENGINE_API char ParameterModeLetter(ParameterMode mode);
 
 // Reads one letter, either case. @throws SceneError naming the letter otherwise.
-ParameterMode ParameterModeFromLetter(char letter);
+DPE_ENGINE_API ParameterMode ParameterModeFromLetter(char letter);
 
 // "explicit_euler", "symplectic_euler", "linearly_implicit_euler", "implicit_euler",
 // "tr_bdf2".
-std::string IntegrationMethodName(IntegrationMethod method);
+DPE_ENGINE_API std::string IntegrationMethodName(IntegrationMethod method);
 
 // Accepts a name or the number as text. @throws SceneError naming what is accepted.
-IntegrationMethod IntegrationMethodFromName(const std::string& name);
+DPE_ENGINE_API IntegrationMethod IntegrationMethodFromName(const std::string& name);
 
 // As in scene files: "stretch", "shear", "bend"; "authored", "unit_normal".
-std::string SpringKindName(SpringKind kind);
-std::string AerodynamicsLawName(AerodynamicsLaw law);
+DPE_ENGINE_API std::string SpringKindName(SpringKind kind);
+DPE_ENGINE_API std::string AerodynamicsLawName(AerodynamicsLaw law);
 
 // Sets the two letters of each object's `optimizationSettings`.
 //
 // @param settings  two letters per object, separated by commas: "nL,nn". Objects
 //                  without an entry are set to "nn" (they are not estimated).
+// @param scene     whose objects are changed
 // @throws SceneError for a wrong letter, or more entries than objects.
-void ApplySettings(const std::string& settings, Scene* scene);
+DPE_ENGINE_API void ApplySettings(const std::string& settings, Scene* scene);
 
 // The two letters of every object, separated by commas, trailing "nn" left out.
-std::string SettingsString(const Scene& scene);
+DPE_ENGINE_API std::string SettingsString(const Scene& scene);
 
 // The rest length of each spring, m: `rest_length`, else the distance of its vertices
 // in `positions`.
-Eigen::VectorXd RestLengths(const ClothObject& object);
+DPE_ENGINE_API Eigen::VectorXd RestLengths(const ClothObject& object);
 
 // The group of each spring used by mode R: `spring_group`, else one group per kind
 // present in `spring_kind`, else all 0.
-std::vector<int> SpringGroups(const ClothObject& object);
+DPE_ENGINE_API std::vector<int> SpringGroups(const ClothObject& object);
 
 // The group of each vertex used by mode R: `vertex_group`, else all 0.
-std::vector<int> VertexGroups(const ClothObject& object);
+DPE_ENGINE_API std::vector<int> VertexGroups(const ClothObject& object);
 
 }  // namespace dpe
 

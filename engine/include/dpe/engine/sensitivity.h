@@ -13,6 +13,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
+#include "dpe/engine/export.h"
 #include "dpe/engine/simulator.h"
 
 namespace dpe {
@@ -42,7 +43,7 @@ struct JacobianCosts {
 
 struct ObjectRecord;
 
-class Sensitivity {
+class DPE_ENGINE_API Sensitivity {
  public:
   // Both must outlive this object; `rollout` must have ended with an ok status and the
   // simulator must not have run with other parameters in between.
@@ -64,9 +65,10 @@ class Sensitivity {
   // The Jacobian of residual rows with respect to the parameters: rows accumulate over
   // `derivatives` (several entries may name the same rows).
   //
-  // @param num_rows  number of residual rows
-  // @param method    kAuto takes the cheaper of tangent and adjoint for this shape
-  // @return          num_rows x layout().size()
+  // @param derivatives  of rows 0 ... num_rows - 1, in any order
+  // @param num_rows     number of residual rows
+  // @param method       kAuto takes the cheaper of tangent and adjoint for this shape
+  // @return             num_rows x layout().size()
   RowMajorMatrix Jacobian(const std::vector<StateDerivative>& derivatives, int num_rows,
                           JacobianMethod method = JacobianMethod::kAuto);
 

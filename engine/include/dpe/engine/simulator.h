@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "dpe/engine/export.h"
 #include "dpe/engine/parameters.h"
 #include "dpe/engine/scene.h"
 #include "dpe/engine/timings.h"
@@ -48,7 +49,7 @@ class RolloutTape;
 class FactorPool;
 
 // A rollout and what its derivative passes need beyond the trajectory's frames.
-class Rollout {
+class DPE_ENGINE_API Rollout {
  public:
   Rollout();
   Rollout(Rollout&&) noexcept;
@@ -72,7 +73,7 @@ class Rollout {
 
 class ObjectSystem;
 
-class Simulator {
+class DPE_ENGINE_API Simulator {
  public:
   // @throws SceneError if the scene is not valid (see ValidateScene).
   explicit Simulator(const Scene& scene, const SimulatorOptions& options = {});
@@ -103,6 +104,7 @@ class Simulator {
   // @param h            step length, s
   // @param x0,v0,x1,v1  3N states before and after the step; entries of fixed vertices
   //                     in v0 and v1 are the prescribed velocity over the step
+  // @param parameters   p, layout order, SI units
   // @param residual     3N; zero at fixed vertices
   // @param jacobian     dr/dp: (row in 0..3N-1, column in layout order); appended to
   void StepResidual(int object, double h, const Eigen::VectorXd& x0,

@@ -2,6 +2,7 @@
 #ifndef DPE_ENGINE_STABLE_STEP_H_
 #define DPE_ENGINE_STABLE_STEP_H_
 
+#include "dpe/engine/export.h"
 #include "dpe/engine/scene.h"
 
 namespace dpe {
@@ -25,7 +26,7 @@ namespace dpe {
 // to alpha. The condition then holds for each vertex by itself. It is sufficient for
 // the cloth as it lies at the start: not where springs later come to lie otherwise, are
 // compressed, or triangles have grown. Whoever relies on it leaves some room.
-double StableStep(const Scene& scene);
+DPE_ENGINE_API double StableStep(const Scene& scene);
 
 }  // namespace dpe
 

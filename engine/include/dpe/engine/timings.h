@@ -7,6 +7,8 @@
 #include <chrono>
 #include <string>
 
+#include "dpe/engine/export.h"
+
 namespace dpe {
 
 enum class TimedPart {
@@ -20,7 +22,7 @@ enum class TimedPart {
 
 // Adds up wall-clock time per part; parts do not overlap. Rollouts of several objects
 // on several threads add their own times.
-class Timings {
+class DPE_ENGINE_API Timings {
  public:
   static constexpr int kNumParts = 6;
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "dpe/engine/export.h"
+
 namespace dpe {
 
 // Whether a rollout reached its last frame, and if not, where and why it stopped.
@@ -25,7 +27,7 @@ struct RolloutStatus {
 
   bool ok() const { return code == Code::kOk; }
   // One sentence: what failed, in which object, frame and step.
-  std::string Message() const;
+  DPE_ENGINE_API std::string Message() const;
 };
 
 // Frame 0 is the initial state; F frames are F-1 frame lengths.

@@ -9,6 +9,7 @@
 
 #include "dpe/engine/scene.h"
 #include "dpe/estimation/capture.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/observations.h"
 
 namespace dpe {
@@ -38,7 +39,7 @@ struct AttachOptions {
 // Reads `marker,vertex` lines (CSV with that header).
 // @throws SceneError naming file, line, value and what is accepted; also for a marker
 //         or a vertex that is there twice
-std::map<std::string, int> ReadMarkerMap(const std::string& path);
+DPE_ESTIMATION_API std::map<std::string, int> ReadMarkerMap(const std::string& path);
 
 // Attaches a capture in the scene's units (ToSceneUnits) to the cloths of a scene.
 //
@@ -48,6 +49,8 @@ std::map<std::string, int> ReadMarkerMap(const std::string& path);
 // triangle, and their distance from it.
 //
 // @param capture   times in frames, positions in m
+// @param scene     whose initial state the markers are attached to
+// @param options   how
 // @param warnings  if not null, receives one line per thing that is worth a look: a
 //                  marker that was not seen at the beginning, a vertex map entry that
 //                  no marker has
@@ -55,9 +58,9 @@ std::map<std::string, int> ReadMarkerMap(const std::string& path);
 //         accepted: a vertex out of range, a number of vertices that is not the
 //         scene's, a marker that the map does not have, one too far from the cloth, a
 //         point given twice at one time
-Observations AttachCapture(const Capture& capture, const Scene& scene,
-                           const AttachOptions& options = {},
-                           std::vector<std::string>* warnings = nullptr);
+DPE_ESTIMATION_API Observations AttachCapture(
+    const Capture& capture, const Scene& scene, const AttachOptions& options = {},
+    std::vector<std::string>* warnings = nullptr);
 
 }  // namespace dpe
 

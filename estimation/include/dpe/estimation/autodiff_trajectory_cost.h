@@ -57,7 +57,10 @@ std::unique_ptr<TrajectoryCost> MakeAutodiffCost(const Scene& scene, Functor fun
 // A residual whose number of values and of vertices is known at run time:
 // functor(const T* const* states, T* residuals), states[i] being what reads[i] names.
 //
-// @param num_residuals  how many values the functor writes
+// @param scene          the scene whose states are read
+// @param functor        is copied
+// @param reads          what it reads
+// @param num_residuals  how many values it writes
 // @throws SceneError as CeresTrajectoryCost::Create
 template <int kStride = 12, typename Functor>
 std::unique_ptr<TrajectoryCost> MakeDynamicAutodiffCost(const Scene& scene,

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "dpe/estimation/export.h"
+
 namespace dpe {
 
 enum class UpAxis {
@@ -91,15 +93,19 @@ struct Capture {
 // file; ToSceneUnits converts them.
 // @throws SceneError naming file, line (of binary files: byte), value and what is
 //         accepted
-Capture ReadCapture(const std::string& path, const CaptureOptions& options = {});
+DPE_ESTIMATION_API Capture ReadCapture(const std::string& path,
+                                       const CaptureOptions& options = {});
 
 // The one place where units are converted: afterwards positions and sigmas are in m, y
 // is up, and times are in frames of the scene since its initial state.
 //
+// @param options       with which the capture was read
 // @param frame_length  s, the scene's delta
+// @param capture       as ReadCapture returned it; is changed
 // @throws SceneError for options that do not fit the capture, a sample before the
 //         initial state, and a unit of length that is not known
-void ToSceneUnits(const CaptureOptions& options, double frame_length, Capture* capture);
+DPE_ESTIMATION_API void ToSceneUnits(const CaptureOptions& options, double frame_length,
+                                     Capture* capture);
 
 }  // namespace dpe
 

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "dpe/engine/scene.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/trajectory_cost.h"
 
 namespace dpe {
@@ -33,10 +34,11 @@ struct StateRead {
   Quantity quantity = Quantity::kPosition;
 };
 
-class CeresTrajectoryCost : public TrajectoryCost {
+class DPE_ESTIMATION_API CeresTrajectoryCost : public TrajectoryCost {
  public:
   // @param scene     the scene whose states are read
   // @param function  its parameter block i has 3 numbers per vertex of reads[i]
+  // @param reads     what it reads, in the order of its parameter blocks
   // @throws SceneError if a read names something that the scene does not have, or the
   //         sizes of the function do not fit the reads; the message says which
   //

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "dpe/estimation/estimator.h"
+#include "dpe/estimation/export.h"
 
 namespace dpe {
 
@@ -44,22 +45,28 @@ struct Checkpoint {
   Eigen::VectorXd coordinates;  // the point of least cost on this horizon
 };
 
-std::string CheckpointToJson(const Checkpoint& checkpoint);
+DPE_ESTIMATION_API std::string CheckpointToJson(const Checkpoint& checkpoint);
 
+// @param text  what CheckpointToJson returned
 // @param name  stands for the file in messages
 // @throws SceneError if the text is not a whole checkpoint of this version
-Checkpoint ParseCheckpoint(const std::string& text, const std::string& name);
+DPE_ESTIMATION_API Checkpoint ParseCheckpoint(const std::string& text,
+                                              const std::string& name);
 
 // @throws SceneError as ParseCheckpoint, and if the file cannot be read
-Checkpoint ReadCheckpoint(const std::string& path);
+DPE_ESTIMATION_API Checkpoint ReadCheckpoint(const std::string& path);
 
 // @throws SceneError if the file cannot be written; the old one is then unchanged
-void WriteCheckpoint(const Checkpoint& checkpoint, const std::string& path);
+DPE_ESTIMATION_API void WriteCheckpoint(const Checkpoint& checkpoint,
+                                        const std::string& path);
 
-// @param name  stands for the file in messages
+// @param checkpoint  to continue from
+// @param problem     of the fit that is about to begin
+// @param name        stands for the file in messages
 // @throws SceneError naming everything in which the problems differ
-void RequireSameProblem(const Checkpoint& checkpoint, const Fingerprint& problem,
-                        const std::string& name);
+DPE_ESTIMATION_API void RequireSameProblem(const Checkpoint& checkpoint,
+                                           const Fingerprint& problem,
+                                           const std::string& name);
 
 }  // namespace dpe
 

@@ -13,6 +13,7 @@
 #include "dpe/engine/scene.h"
 #include "dpe/engine/trajectory.h"
 #include "dpe/estimation/estimator.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/load_target.h"
 #include "dpe/estimation/model_selection.h"
 #include "dpe/estimation/observations.h"
@@ -76,7 +77,7 @@ struct EstimationInput {
   std::vector<int> auto_objects;  // whose settings are to be chosen
   bool truth_is_known = false;    // the scenes' values made the targets
 
-  std::vector<const Scene*> scenes() const;
+  DPE_ESTIMATION_API std::vector<const Scene*> scenes() const;
 };
 
 struct Validation {
@@ -94,47 +95,56 @@ struct Validation {
 // @throws SceneError for bad input, as many targets as there are not scenes for, scenes
 //         that are not of the same cloths, and if a scene's own motion cannot be
 //         simulated
-EstimationInput LoadEstimationInput(const EstimationJob& job);
+DPE_ESTIMATION_API EstimationInput LoadEstimationInput(const EstimationJob& job);
 
 // Estimate with what was read; where settings are to be chosen (input->auto_objects),
 // SelectModel, after which the scenes have the chosen ones.
+// @param options    of the fit
 // @param started    told of each model that is about to be fitted, if set
+// @param input      what LoadEstimationInput returned
 // @param selection  receives how the settings were chosen; not touched where they are
 //                   not to be
-EstimatorSummary RunEstimation(const EstimatorOptions& options,
-                               const std::function<void(const ModelFit&)>& started,
-                               EstimationInput* input, ModelSelection* selection);
+DPE_ESTIMATION_API EstimatorSummary
+RunEstimation(const EstimatorOptions& options,
+              const std::function<void(const ModelFit&)>& started,
+              EstimationInput* input, ModelSelection* selection);
 
 // The job's output folder, created if it is missing. Where the settings are to be
 // chosen, its name says so: results/<scene>_auto.
 // @throws SceneError if it cannot be
-std::string PrepareOutputDir(const EstimationJob& job, const EstimationInput& input);
+DPE_ESTIMATION_API std::string PrepareOutputDir(const EstimationJob& job,
+                                                const EstimationInput& input);
 
 // Simulates the fitted scenes beyond the fit and compares with the references; one per
 // capture.
-std::vector<Validation> Validate(const EstimatorSummary& summary,
-                                 const EstimationInput& input, int num_threads);
+DPE_ESTIMATION_API std::vector<Validation> Validate(const EstimatorSummary& summary,
+                                                    const EstimationInput& input,
+                                                    int num_threads);
 
 // All of them as one: the frames of the longest, the RMS over all (NaN if one is
 // missing), without trajectory.
-Validation Together(const std::vector<Validation>& validations);
+DPE_ESTIMATION_API Validation Together(const std::vector<Validation>& validations);
 
 // Writes <scene>_<settings>_optimized.txt, trajectory.csv (or .pc2, .npy, or
 // trajectory_*.obj, see trajectory_format) and report.json, each atomically; only the
 // report if no point could be simulated. Of several captures scene_1.txt,
 // trajectory_1.csv (or trajectory_1_*.obj), scene_2.txt, ...
-// @param selection  how the settings were chosen; null: they were not
-// @return the paths written
-std::vector<std::string> WriteResults(const EstimationJob& job,
-                                      const EstimationInput& input,
-                                      const EstimatorSummary& summary,
-                                      const std::vector<Validation>& validations,
-                                      const std::string& output_dir,
-                                      const ModelSelection* selection = nullptr);
+// @param job          what was asked for
+// @param input        what was read
+// @param summary      what RunEstimation returned
+// @param validations  what Validate returned
+// @param output_dir   what PrepareOutputDir returned
+// @param selection    how the settings were chosen; null: they were not
+// @return             the paths written
+DPE_ESTIMATION_API std::vector<std::string> WriteResults(
+    const EstimationJob& job, const EstimationInput& input,
+    const EstimatorSummary& summary, const std::vector<Validation>& validations,
+    const std::string& output_dir, const ModelSelection* selection = nullptr);
 
 // "<scene>_<settings>", the scene being its file name without extension, or that of the
 // target it was made of, with "_and_2_more" after it where there are others.
-std::string JobName(const EstimationJob& job, const EstimationInput& input);
+DPE_ESTIMATION_API std::string JobName(const EstimationJob& job,
+                                       const EstimationInput& input);
 
 }  // namespace dpe
 

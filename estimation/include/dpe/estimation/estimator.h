@@ -12,6 +12,7 @@
 #include "dpe/engine/scene.h"
 #include "dpe/engine/sensitivity.h"
 #include "dpe/engine/trajectory.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/motion_sensitivity.h"
 #include "dpe/estimation/observations.h"
 #include "dpe/estimation/priors.h"
@@ -141,7 +142,8 @@ enum class Termination {
   kNumericalFailure  // the optimiser could not go on
 };
 
-std::string TerminationName(Termination termination);  // "converged", ...
+DPE_ESTIMATION_API std::string TerminationName(
+    Termination termination);  // "converged", ...
 
 // One estimated block, expanded to the object's elements.
 struct EstimatedBlock {
@@ -226,8 +228,9 @@ struct EstimatorSummary {
 // @throws SceneError if nothing is estimated or observed, an option does not fit, or
 // the
 //         checkpoint to resume from cannot be read or is of another fit.
-EstimatorSummary Estimate(const Scene& scene, const Observations& observations,
-                          const EstimatorOptions& options);
+DPE_ESTIMATION_API EstimatorSummary Estimate(const Scene& scene,
+                                             const Observations& observations,
+                                             const EstimatorOptions& options);
 
 // Estimates from several captures of the same cloths at once: each is a rollout of its
 // own, in parallel (num_threads), and the cost is the sum of theirs.
@@ -243,8 +246,8 @@ EstimatorSummary Estimate(const Scene& scene, const Observations& observations,
 // @throws SceneError as above, naming the captures, if they are not of the same cloths
 //         (RequireSameCloths), the noise of only some is known, one shows nothing that
 //         a parameter moves, or they give two masses where the mass is kept
-EstimatorSummary Estimate(const std::vector<CapturedMotion>& captures,
-                          const EstimatorOptions& options);
+DPE_ESTIMATION_API EstimatorSummary
+Estimate(const std::vector<CapturedMotion>& captures, const EstimatorOptions& options);
 
 // The parameters that the scenes of a fit's captures, or of its only one, hold.
 struct TrueParameters {
@@ -253,13 +256,15 @@ struct TrueParameters {
   // deviation from it.
   std::vector<char> is_known;
 };
-TrueParameters TrueParametersOf(const std::vector<const Scene*>& truths);
+DPE_ESTIMATION_API TrueParameters
+TrueParametersOf(const std::vector<const Scene*>& truths);
 
 // Mean over the parameters that act on the motion of 100 |p - p_true| / |p_true|; NaN
 // if no block of the layout can represent the truth.
-double ParameterDeviationPercent(const EstimatorSummary& summary, const Scene& truth);
-double ParameterDeviationPercent(const EstimatorSummary& summary,
-                                 const std::vector<const Scene*>& truths);
+DPE_ESTIMATION_API double ParameterDeviationPercent(const EstimatorSummary& summary,
+                                                    const Scene& truth);
+DPE_ESTIMATION_API double ParameterDeviationPercent(
+    const EstimatorSummary& summary, const std::vector<const Scene*>& truths);
 
 }  // namespace dpe
 

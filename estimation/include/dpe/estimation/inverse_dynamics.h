@@ -30,6 +30,7 @@
 
 #include "dpe/engine/scene.h"
 #include "dpe/engine/simulator.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/joint_layout.h"
 #include "dpe/estimation/observations.h"
 
@@ -56,10 +57,9 @@ struct InverseDynamicsResult {
 // @param total_mass    one per object, kg: the sum of the masses of the free vertices,
 //                      used only where the gauge needs it
 // @throws SceneError if an estimated object is not observed completely
-InverseDynamicsResult SolveInverseDynamics(Simulator* simulator,
-                                           const Observations& observations,
-                                           int num_frames,
-                                           const std::vector<double>& total_mass);
+DPE_ESTIMATION_API InverseDynamicsResult
+SolveInverseDynamics(Simulator* simulator, const Observations& observations,
+                     int num_frames, const std::vector<double>& total_mass);
 
 // One of several motions of the same cloths.
 struct InverseDynamicsMotion {
@@ -73,14 +73,17 @@ struct InverseDynamicsMotion {
 // what they share and what each has for itself. Segments of the layout without a motion
 // have no equations; what they alone depend on is undetermined.
 //
-// @param total_mass  of the vertices that are free in any segment
+// @param motions     of the layout's segments
+// @param joint       the parameters to solve for
+// @param total_mass  one per object, kg: of the vertices that are free in any segment
 // @throws SceneError as above
-InverseDynamicsResult SolveInverseDynamics(
-    const std::vector<InverseDynamicsMotion>& motions, const JointLayout& joint,
-    const std::vector<double>& total_mass);
+DPE_ESTIMATION_API InverseDynamicsResult
+SolveInverseDynamics(const std::vector<InverseDynamicsMotion>& motions,
+                     const JointLayout& joint, const std::vector<double>& total_mass);
 
 // True if every estimated object of the scene is observed completely.
-bool InverseDynamicsApplies(const Scene& scene, const Observations& observations);
+DPE_ESTIMATION_API bool InverseDynamicsApplies(const Scene& scene,
+                                               const Observations& observations);
 
 }  // namespace dpe
 

@@ -19,14 +19,16 @@
 
 #include "dpe/engine/parameters.h"
 #include "dpe/engine/scene.h"
+#include "dpe/estimation/export.h"
 
 namespace dpe {
 
-class JointLayout {
+class DPE_ESTIMATION_API JointLayout {
  public:
   // One segment: the scene's own layout. Several: the shared blocks in the order of
   // ParameterLayout, then the blocks of each segment.
   //
+  // @param scenes    one per segment, at least one
   // @param own_wind  whether each segment has a wind of its own to be estimated
   // @throws SceneError if the scenes' objects are not the same cloths, see
   //         RequireSameCloths
@@ -66,10 +68,11 @@ class JointLayout {
 // Checks that the scenes hold the same cloths: as many objects of the same vertices,
 // springs, triangles, groups and rest lengths (to 1e-6 relative), of which the same is
 // estimated, and the same values of what is not (to 1e-9 relative).
-// @param names  of the scenes in messages; empty: "scene 0", "scene 1", ...
+// @param scenes  at least one
+// @param names   of the scenes in messages; empty: "scene 0", "scene 1", ...
 // @throws SceneError naming scenes, object, quantity and both values
-void RequireSameCloths(const std::vector<const Scene*>& scenes,
-                       const std::vector<std::string>& names = {});
+DPE_ESTIMATION_API void RequireSameCloths(const std::vector<const Scene*>& scenes,
+                                          const std::vector<std::string>& names = {});
 
 }  // namespace dpe
 

@@ -9,6 +9,7 @@
 #include "dpe/engine/scene.h"
 #include "dpe/estimation/attach.h"
 #include "dpe/estimation/capture.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/observations.h"
 
 namespace dpe {
@@ -28,17 +29,19 @@ struct TargetOptions {
 // over what the options say. Rest lengths change with `rest_shape` only.
 //
 // @param path      file, folder or pattern, see ReadCapture
+// @param options   how it is read and attached, and what the scene takes over
 // @param scene     is changed; valid afterwards if it was before
 // @param warnings  if not null, receives one line per thing that is worth a look
 // @throws SceneError naming file, line or byte, value and what is accepted
-Observations LoadTarget(const std::string& path, const TargetOptions& options,
-                        Scene* scene, std::vector<std::string>* warnings = nullptr);
+DPE_ESTIMATION_API Observations
+LoadTarget(const std::string& path, const TargetOptions& options, Scene* scene,
+           std::vector<std::string>* warnings = nullptr);
 
 // "y" or "z"; "auto", "first" or "file"; "auto", "vertex" or "position".
 // @throws SceneError naming what is accepted
-UpAxis UpAxisFromName(const std::string& name);
-TimeOrigin TimeOriginFromName(const std::string& name);
-AttachMethod AttachMethodFromName(const std::string& name);
+DPE_ESTIMATION_API UpAxis UpAxisFromName(const std::string& name);
+DPE_ESTIMATION_API TimeOrigin TimeOriginFromName(const std::string& name);
+DPE_ESTIMATION_API AttachMethod AttachMethodFromName(const std::string& name);
 
 }  // namespace dpe
 

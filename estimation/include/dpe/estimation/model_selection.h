@@ -33,6 +33,7 @@
 
 #include "dpe/engine/scene.h"
 #include "dpe/estimation/estimator.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/observations.h"
 
 namespace dpe {
@@ -46,7 +47,8 @@ namespace dpe {
 // @return  the objects whose settings are to be chosen; empty: the settings were
 //          letters, and were applied as ApplySettings does
 // @throws SceneError naming what is accepted
-std::vector<int> ApplyAutoSettings(const std::string& settings, Scene* scene);
+DPE_ESTIMATION_API std::vector<int> ApplyAutoSettings(const std::string& settings,
+                                                      Scene* scene);
 
 // A fit that is about to begin.
 struct ModelFit {
@@ -108,12 +110,13 @@ struct SelectedModel {
 //
 // @throws SceneError as Estimate, if there are too few frames, nothing is observed in
 //         the held-out ones, or a checkpoint is asked for
-SelectedModel SelectModel(const Scene& scene, const Observations& observations,
-                          const EstimatorOptions& options,
-                          const ModelSelectionOptions& selection);
-SelectedModel SelectModel(const std::vector<CapturedMotion>& captures,
-                          const EstimatorOptions& options,
-                          const ModelSelectionOptions& selection);
+DPE_ESTIMATION_API SelectedModel SelectModel(const Scene& scene,
+                                             const Observations& observations,
+                                             const EstimatorOptions& options,
+                                             const ModelSelectionOptions& selection);
+DPE_ESTIMATION_API SelectedModel
+SelectModel(const std::vector<CapturedMotion>& captures,
+            const EstimatorOptions& options, const ModelSelectionOptions& selection);
 
 }  // namespace dpe
 

@@ -20,6 +20,7 @@
 
 #include "dpe/engine/scene.h"
 #include "dpe/engine/simulator.h"
+#include "dpe/estimation/export.h"
 
 namespace dpe {
 
@@ -38,10 +39,11 @@ struct MotionSensitivity {
 // Of the objects of which something is estimated, with the scene's values; of all, if
 // there are none. Never throws.
 //
+// @param scene       what moves
 // @param num_frames  of the motion, at least 2
 // @param options     threads, memory and interruption
-MotionSensitivity ComputeMotionSensitivity(const Scene& scene, int num_frames,
-                                           const SimulatorOptions& options = {});
+DPE_ESTIMATION_API MotionSensitivity ComputeMotionSensitivity(
+    const Scene& scene, int num_frames, const SimulatorOptions& options = {});
 
 }  // namespace dpe
 

@@ -34,6 +34,7 @@
 #include <vector>
 
 #include "dpe/engine/scene.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/observations.h"
 #include "dpe/estimation/trajectory_problem.h"
 
@@ -103,16 +104,17 @@ struct MultipleShootingSummary {
 // observations where a vertex is observed there, else from the rollout of `start`, else
 // from the vertex's nearest observation in time.
 //
-// @param start       parameters, ParameterLayout(scene)'s order, SI units
-// @param num_frames  to fit, at least 2
-// @return            the parameters after the final fit; ok is false if a single
-// rollout
-//                    with those of the last stage, then returned, fails
+// @param scene         whose marked parameters are estimated
+// @param observations  what was seen of it
+// @param num_frames    to fit, at least 2
+// @param start         parameters, ParameterLayout(scene)'s order, SI units
+// @param options       windows, weights, when to stop
+// @return              the parameters after the final fit; ok is false if a single
+//                      rollout with those of the last stage, then returned, fails
 // @throws SceneError if nothing is estimated or observed, or an option makes no sense
-MultipleShootingSummary MultipleShooting(const Scene& scene,
-                                         const Observations& observations,
-                                         int num_frames, const Eigen::VectorXd& start,
-                                         const MultipleShootingOptions& options = {});
+DPE_ESTIMATION_API MultipleShootingSummary MultipleShooting(
+    const Scene& scene, const Observations& observations, int num_frames,
+    const Eigen::VectorXd& start, const MultipleShootingOptions& options = {});
 
 }  // namespace dpe
 

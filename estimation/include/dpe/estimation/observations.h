@@ -10,6 +10,7 @@
 
 #include "dpe/engine/scene.h"
 #include "dpe/engine/trajectory.h"
+#include "dpe/estimation/export.h"
 
 namespace dpe {
 
@@ -49,31 +50,35 @@ struct Observations {
   double sigma = 0.0;
 
   // Frames that `positions` and `samples` reach into, frame 0 included.
-  int num_frames() const;
-  bool IsObserved(int object, int vertex, int frame) const;
+  DPE_ESTIMATION_API int num_frames() const;
+  DPE_ESTIMATION_API bool IsObserved(int object, int vertex, int frame) const;
   // The noise of one vertex at one frame, of one sample, m; 0: not known.
-  double Sigma(int object, int vertex, int frame) const;
-  double Sigma(const MarkerSample& sample) const;
+  DPE_ESTIMATION_API double Sigma(int object, int vertex, int frame) const;
+  DPE_ESTIMATION_API double Sigma(const MarkerSample& sample) const;
   // Number of (vertex, frame) pairs observed of one object.
-  long NumObserved(int object) const;
+  DPE_ESTIMATION_API long NumObserved(int object) const;
   // True if every free vertex of `object` is observed at every frame.
-  bool IsComplete(const Scene& scene, int object) const;
+  DPE_ESTIMATION_API bool IsComplete(const Scene& scene, int object) const;
 };
 
 // All positions of a trajectory, as if every vertex had been observed.
-Observations ObserveAll(const Trajectory& trajectory);
+DPE_ESTIMATION_API Observations ObserveAll(const Trajectory& trajectory);
 
 // Adds independent normal noise to every coordinate of free vertices and of markers
 // after frame 0 (which, the initial state, is given by the scene).
+// @param scene  what was observed
 // @param sigma  standard deviation per coordinate, m
 // @param seed   of a std::mt19937_64
-void AddNoise(const Scene& scene, double sigma, std::uint64_t seed, Observations* obs);
+// @param obs    is changed
+DPE_ESTIMATION_API void AddNoise(const Scene& scene, double sigma, std::uint64_t seed,
+                                 Observations* obs);
 
 // Where a simulated marker is at `time` (in frames), by a cubic through the four
 // nearest of the first `num_frames` frames. The trajectory must hold the marker's
 // object.
-Eigen::Vector3d MarkerPosition(const Trajectory& trajectory, const Marker& marker,
-                               double time, int num_frames);
+DPE_ESTIMATION_API Eigen::Vector3d MarkerPosition(const Trajectory& trajectory,
+                                                  const Marker& marker, double time,
+                                                  int num_frames);
 
 // The squared distances of what was observed from a trajectory, of any number of
 // motions.
@@ -81,18 +86,21 @@ struct PositionErrors {
   double sum = 0.0;  // m^2
   long count = 0;    // of observed positions
 
-  double Rms() const;  // m; NaN without any
+  DPE_ESTIMATION_API double Rms() const;  // m; NaN without any
 };
 
 // Adds those of vertices and of markers of the objects that the trajectory holds, over
 // the frames from `first_frame` to the `num_frames`-th. Noise makes no difference:
 // every observation counts the same.
-void AddPositionErrors(const Trajectory& trajectory, const Observations& observations,
-                       int num_frames, PositionErrors* errors, int first_frame = 0);
+DPE_ESTIMATION_API void AddPositionErrors(const Trajectory& trajectory,
+                                          const Observations& observations,
+                                          int num_frames, PositionErrors* errors,
+                                          int first_frame = 0);
 
 // sqrt(sum |x - x_hat|^2 / number of observed positions) of these, m; NaN without any.
-double RmsPositionError(const Trajectory& trajectory, const Observations& observations,
-                        int num_frames, int first_frame = 0);
+DPE_ESTIMATION_API double RmsPositionError(const Trajectory& trajectory,
+                                           const Observations& observations,
+                                           int num_frames, int first_frame = 0);
 
 }  // namespace dpe
 

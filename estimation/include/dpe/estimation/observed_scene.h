@@ -5,6 +5,7 @@
 #include <string>
 
 #include "dpe/engine/scene.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/observations.h"
 
 namespace dpe {
@@ -19,16 +20,19 @@ namespace dpe {
 // stay what they were. A vertex is observed where it is in `positions`, or by a marker
 // that is attached to it alone. One that is not observed keeps the path it has.
 //
-// @param name   stands for the observation in messages
-// @return       how many vertices follow
+// @param observations  positions, m
+// @param name          stands for the observation in messages
+// @param scene         whose fixed vertices get paths
+// @return              how many vertices follow
 // @throws SceneError for a fixed vertex that is never observed and has no path
-int FollowObservedPins(const Observations& observations, const std::string& name,
-                       Scene* scene);
+DPE_ESTIMATION_API int FollowObservedPins(const Observations& observations,
+                                          const std::string& name, Scene* scene);
 
 // Vertices that were observed at frame 0 start there; the others, and all that are seen
 // through markers only, keep the scene's positions. Rest lengths stay what they were.
 // @return  how many vertices were moved
-int StartFromObservation(const Observations& observations, Scene* scene);
+DPE_ESTIMATION_API int StartFromObservation(const Observations& observations,
+                                            Scene* scene);
 
 }  // namespace dpe
 

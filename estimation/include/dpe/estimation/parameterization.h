@@ -13,10 +13,11 @@
 #include <vector>
 
 #include "dpe/engine/parameters.h"
+#include "dpe/estimation/export.h"
 
 namespace dpe {
 
-class ParameterMap {
+class DPE_ESTIMATION_API ParameterMap {
  public:
   // The least value that a positive quantity can start from, in its SI unit.
   static constexpr double kFloor = 1e-12;
@@ -31,6 +32,7 @@ class ParameterMap {
   Eigen::VectorXd ToParameters(const Eigen::VectorXd& coordinates) const;
 
   // p -> q. Values of positive kinds below kFloor are raised to it first.
+  // @param parameters  p, layout order, SI units
   // @param num_raised  if not null, receives how many were
   Eigen::VectorXd ToCoordinates(const Eigen::VectorXd& parameters,
                                 int* num_raised = nullptr) const;

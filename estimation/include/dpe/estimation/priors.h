@@ -49,6 +49,7 @@
 #include <vector>
 
 #include "dpe/engine/parameters.h"
+#include "dpe/estimation/export.h"
 
 namespace dpe {
 
@@ -78,15 +79,17 @@ struct SmoothnessPrior {
 // DISTRIBUTION:CENTRE,SPREAD, of which [PART] and @OBJECT may be left out. Quantities
 // are mass, stiffness, damping, drag, wind and initial_velocity.
 // @throws SceneError naming the entry and what is accepted
-std::vector<Prior> PriorsFromText(const std::string& text);
+DPE_ESTIMATION_API std::vector<Prior> PriorsFromText(const std::string& text);
 
 // Reads "stiffness=100,mass@1=auto". @throws SceneError likewise
-std::vector<SmoothnessPrior> SmoothnessFromText(const std::string& text);
+DPE_ESTIMATION_API std::vector<SmoothnessPrior> SmoothnessFromText(
+    const std::string& text);
 
 // Text that reads back to the same; a weight that was chosen is "auto:100".
-std::string PriorText(const Prior& prior);
-std::string SmoothnessText(const SmoothnessPrior& smoothness);
-std::string SmoothnessText(const std::vector<SmoothnessPrior>& smoothness);
+DPE_ESTIMATION_API std::string PriorText(const Prior& prior);
+DPE_ESTIMATION_API std::string SmoothnessText(const SmoothnessPrior& smoothness);
+DPE_ESTIMATION_API std::string SmoothnessText(
+    const std::vector<SmoothnessPrior>& smoothness);
 
 }  // namespace dpe
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dpe/estimation/estimation_job.h"
+#include "dpe/estimation/export.h"
 
 namespace dpe {
 
@@ -27,15 +28,21 @@ namespace dpe {
 // sigma_m of the report itself are null, frames are those of the longest, and errors
 // and validation are over all.
 //
-// @param selection  null: the settings were given. Otherwise also model_selection
-//                   {criterion, frames, fitted_frames, held_out_frames, candidates
-//                   [{settings, parameters, termination, iterations, seconds,
-//                   fit_rms_m, held_out_rms_m, compared_with, weight, weight_deviation,
-//                   kept, reason}], chosen, reason}, see ModelCandidate
-std::string ReportToJson(const EstimationJob& job, const EstimationInput& input,
-                         const EstimatorSummary& summary,
-                         const std::vector<Validation>& validations,
-                         const ModelSelection* selection = nullptr);
+// @param job          what was asked for
+// @param input        what was read
+// @param summary      what RunEstimation returned
+// @param validations  what Validate returned
+// @param selection    null: the settings were given. Otherwise also model_selection
+//                     {criterion, frames, fitted_frames, held_out_frames, candidates
+//                     [{settings, parameters, termination, iterations, seconds,
+//                     fit_rms_m, held_out_rms_m, compared_with, weight,
+//                     weight_deviation, kept, reason}], chosen, reason}, see
+//                     ModelCandidate
+DPE_ESTIMATION_API std::string ReportToJson(const EstimationJob& job,
+                                            const EstimationInput& input,
+                                            const EstimatorSummary& summary,
+                                            const std::vector<Validation>& validations,
+                                            const ModelSelection* selection = nullptr);
 
 }  // namespace dpe
 

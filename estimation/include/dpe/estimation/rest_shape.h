@@ -9,6 +9,7 @@
 #include "dpe/engine/cloth_builder.h"
 #include "dpe/engine/scene.h"
 #include "dpe/estimation/capture.h"
+#include "dpe/estimation/export.h"
 
 namespace dpe {
 
@@ -24,31 +25,36 @@ namespace dpe {
 // @throws SceneError naming file, line where there is one, value and what is accepted:
 //         no texture coordinates, a vertex of a face without, a seam (a vertex that has
 //         two), a file that is no mesh. Vertices of no face are left out.
-Eigen::VectorXd ReadRestShape(const std::string& source, double scale,
-                              const Capture& capture);
+DPE_ESTIMATION_API Eigen::VectorXd ReadRestShape(const std::string& source,
+                                                 double scale, const Capture& capture);
 
 // Sets the rest lengths of a cloth's springs to the distances of the rest shape.
 //
+// @param rest      3N, m
 // @param source    stands for the rest shape in messages
 // @param object    index of the cloth; -1: the only one with that number of vertices
+// @param scene     whose rest lengths are set
 // @param warnings  if not null, is told if springs are far from their rest length in
-// the
-//                  initial state (by more than a factor of 2): the order of the
+//                  the initial state (by more than a factor of 2): the order of the
 //                  vertices or the size may be wrong
 // @throws SceneError if no cloth has that number of vertices, or several do; for a
 //         spring without length
-void SetRestShape(const Eigen::VectorXd& rest, const std::string& source, int object,
-                  Scene* scene, std::vector<std::string>* warnings = nullptr);
+DPE_ESTIMATION_API void SetRestShape(const Eigen::VectorXd& rest,
+                                     const std::string& source, int object,
+                                     Scene* scene,
+                                     std::vector<std::string>* warnings = nullptr);
 
 // A cloth that has the mass and the stiffness of its rest shape and starts in the first
 // frame of a capture of meshes; all vertices are free.
 //
-// @param capture  with a mesh, in the scene's units (ToSceneUnits)
-// @param rest     3N; empty: the first frame
+// @param capture   with a mesh, in the scene's units (ToSceneUnits)
+// @param rest      3N, m; empty: the first frame
+// @param material  of the whole cloth
 // @throws SceneError as BuildClothFromMesh, for a capture without triangles, and for a
 //         rest shape of another size
-ClothObject BuildClothFromCapture(const Capture& capture, const Eigen::VectorXd& rest,
-                                  const ClothMaterial& material);
+DPE_ESTIMATION_API ClothObject BuildClothFromCapture(const Capture& capture,
+                                                     const Eigen::VectorXd& rest,
+                                                     const ClothMaterial& material);
 
 }  // namespace dpe
 

@@ -27,19 +27,22 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "dpe/estimation/export.h"
+
 namespace dpe {
 
 enum class LossType { kNone, kHuber, kCauchy, kTukey };
 
 // "none", "huber", "cauchy", "tukey".
-std::string LossTypeName(LossType type);
+DPE_ESTIMATION_API std::string LossTypeName(LossType type);
 
 // @throws SceneError naming what is accepted
-LossType LossTypeFromName(const std::string& name);
+DPE_ESTIMATION_API LossType LossTypeFromName(const std::string& name);
 
-class RobustLoss {
+class DPE_ESTIMATION_API RobustLoss {
  public:
   RobustLoss() = default;  // none
+  // @param type   which law
   // @param scale  c, in the residual's unit, > 0
   RobustLoss(LossType type, double scale) : type_(type), scale_(scale) {}
 

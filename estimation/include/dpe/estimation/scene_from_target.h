@@ -7,6 +7,7 @@
 
 #include "dpe/engine/cloth_builder.h"
 #include "dpe/engine/scene.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/load_target.h"
 
 namespace dpe {
@@ -28,11 +29,14 @@ struct SceneFromTargetOptions {
 // shape that target.rest_shape says (empty: that frame), gravity, no wind, and drag by
 // the unit_normal law. A frame is as long as target.capture.rate says.
 //
-// @param path    file, folder or pattern of a format with triangles, see ReadCapture
+// @param path     file, folder or pattern of a format with triangles, see ReadCapture
+// @param target   how it is read
+// @param options  what the cloth is made of, its pins and time steps
 // @throws SceneError for a format without triangles, a rate that is not given, and as
 //         ReadCapture and BuildClothFromCapture
-Scene SceneFromTarget(const std::string& path, const TargetOptions& target,
-                      const SceneFromTargetOptions& options);
+DPE_ESTIMATION_API Scene SceneFromTarget(const std::string& path,
+                                         const TargetOptions& target,
+                                         const SceneFromTargetOptions& options);
 
 }  // namespace dpe
 

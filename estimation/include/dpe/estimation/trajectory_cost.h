@@ -15,12 +15,13 @@
 #include "dpe/engine/scene.h"
 #include "dpe/engine/sensitivity.h"
 #include "dpe/engine/trajectory.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/observations.h"
 #include "dpe/estimation/robust_loss.h"
 
 namespace dpe {
 
-class TrajectoryCost {
+class DPE_ESTIMATION_API TrajectoryCost {
  public:
   // One object's state at one frame.
   struct StateReference {
@@ -71,7 +72,7 @@ struct PositionCostOptions {
 //
 // A residual is linear in the states that it reads (a selection of vertices, a
 // barycentric combination, an interpolation in time) until the loss bends it.
-class PositionCost : public TrajectoryCost {
+class DPE_ESTIMATION_API PositionCost : public TrajectoryCost {
  public:
   // The vertices observed at one frame, by object, then vertex. Null if there are none.
   static std::unique_ptr<PositionCost> Create(const Scene& scene,
@@ -107,9 +108,9 @@ class PositionCost : public TrajectoryCost {
 //
 // @throws SceneError if the noise is known of some observations and not of others,
 //         whose residuals could not be compared
-TrajectoryCosts MakePositionCosts(const Scene& scene, const Observations& observations,
-                                  int num_frames,
-                                  const PositionCostOptions& options = {});
+DPE_ESTIMATION_API TrajectoryCosts
+MakePositionCosts(const Scene& scene, const Observations& observations, int num_frames,
+                  const PositionCostOptions& options = {});
 
 }  // namespace dpe
 

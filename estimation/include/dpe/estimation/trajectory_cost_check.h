@@ -8,6 +8,7 @@
 #include <string>
 
 #include "dpe/engine/trajectory.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/trajectory_cost.h"
 
 namespace dpe {
@@ -36,12 +37,13 @@ struct TrajectoryCostCheck {
   Entry worst;
 };
 
+// @param cost        to check
 // @param trajectory  simulated states that `cost` can be evaluated on
 // @param tolerance   largest relative_error to accept
 // @return            never throws for a wrong cost: `message` says what is wrong
-TrajectoryCostCheck CheckTrajectoryCost(const TrajectoryCost& cost,
-                                        const Trajectory& trajectory,
-                                        double tolerance = 1e-6);
+DPE_ESTIMATION_API TrajectoryCostCheck CheckTrajectoryCost(const TrajectoryCost& cost,
+                                                           const Trajectory& trajectory,
+                                                           double tolerance = 1e-6);
 
 }  // namespace dpe
 

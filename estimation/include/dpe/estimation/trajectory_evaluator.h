@@ -24,6 +24,7 @@
 #include "dpe/engine/scene.h"
 #include "dpe/engine/sensitivity.h"
 #include "dpe/engine/simulator.h"
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/joint_layout.h"
 #include "dpe/estimation/parameterization.h"
 #include "dpe/estimation/priors.h"
@@ -54,7 +55,7 @@ class SegmentRollout;
 class LinkCost;
 class PriorRows;
 
-class TrajectoryEvaluator {
+class DPE_ESTIMATION_API TrajectoryEvaluator {
  public:
   // Simulates the estimated objects of `scene`, as many frames as the costs read.
   // @throws SceneError if the scene is not valid, the costs read a state that is not

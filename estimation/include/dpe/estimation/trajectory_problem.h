@@ -18,11 +18,12 @@
 #include <memory>
 #include <vector>
 
+#include "dpe/estimation/export.h"
 #include "dpe/estimation/trajectory_evaluator.h"
 
 namespace dpe {
 
-class TrajectoryProblem : private ceres::EvaluationCallback {
+class DPE_ESTIMATION_API TrajectoryProblem : private ceres::EvaluationCallback {
  public:
   // The largest change of a positive parameter in one least-squares step.
   static constexpr double kMaxFactor = 100.0;

@@ -52,6 +52,7 @@
 
 #include "dpe/engine/parameters.h"
 #include "dpe/engine/scene.h"
+#include "dpe/estimation/export.h"
 
 namespace dpe {
 
@@ -98,7 +99,7 @@ enum ParameterFlag : unsigned {
 
 // "no_influence", "undetermined", "weakly_determined", "prior_alone",
 // "at_lower_limit", "at_upper_limit".
-std::vector<std::string> ParameterFlagNames(unsigned flags);
+DPE_ESTIMATION_API std::vector<std::string> ParameterFlagNames(unsigned flags);
 
 // One block of parameters, as EstimatedBlock.
 struct BlockUncertainty {
@@ -126,7 +127,8 @@ enum class DirectionPattern {
   kGeneral,
 };
 
-std::string DirectionPatternName(DirectionPattern pattern);  // "single", ...
+DPE_ESTIMATION_API std::string DirectionPatternName(
+    DirectionPattern pattern);  // "single", ...
 
 // One direction in which the data do not, or hardly, fix the parameters.
 struct UndeterminedDirection {
@@ -180,14 +182,15 @@ struct Uncertainty {
 // Analyses the linearised problem above. Never throws: input that does not fit together
 // or is not finite, more parameters than max_parameters, and a noise that cannot be
 // estimated (no more residuals than determined directions) give ok == false.
-Uncertainty ComputeUncertainty(const UncertaintyInput& input,
-                               const UncertaintyOptions& options = {});
+DPE_ESTIMATION_API Uncertainty ComputeUncertainty(
+    const UncertaintyInput& input, const UncertaintyOptions& options = {});
 
 // "all 5 parameters were determined", or how many were and which were not.
-std::string DeterminedText(const Uncertainty& uncertainty);
+DPE_ESTIMATION_API std::string DeterminedText(const Uncertainty& uncertainty);
 
 // What a program prints: one line per block, DeterminedText, then the statements.
-std::vector<std::string> UncertaintyLines(const Uncertainty& uncertainty);
+DPE_ESTIMATION_API std::vector<std::string> UncertaintyLines(
+    const Uncertainty& uncertainty);
 
 }  // namespace dpe
 

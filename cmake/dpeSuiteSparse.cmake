@@ -1,0 +1,27 @@
+# Makes the imported target dpe::suitesparse: SuiteSparse's SPQR and CHOLMOD with LAPACK.
+# Used by dpe's own build and by the installed package. SuiteSparse has no CMake package
+# of its own on the platforms we support, so its libraries are found by name.
+if(TARGET dpe::suitesparse)
+  return()
+endif()
+set(dpe_suitesparse_libraries)
+set(dpe_suitesparse_missing)
+find_path(DPE_SUITESPARSE_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
+foreach(dpe_library IN ITEMS spqr cholmod)
+  find_library(DPE_${dpe_library}_LIBRARY ${dpe_library})
+  mark_as_advanced(DPE_${dpe_library}_LIBRARY)
+  if(NOT DPE_${dpe_library}_LIBRARY)
+    set(dpe_suitesparse_missing ${dpe_library})
+  endif()
+  list(APPEND dpe_suitesparse_libraries ${DPE_${dpe_library}_LIBRARY})
+endforeach()
+find_package(LAPACK QUIET)
+if(NOT LAPACK_FOUND)
+  set(dpe_suitesparse_missing "LAPACK (libopenblas-pthread-dev)")
+endif()
+if(NOT dpe_suitesparse_missing)
+  add_library(dpe::suitesparse INTERFACE IMPORTED GLOBAL)
+  target_include_directories(dpe::suitesparse INTERFACE ${DPE_SUITESPARSE_INCLUDE_DIR})
+  target_link_libraries(dpe::suitesparse INTERFACE ${dpe_suitesparse_libraries}
+                        ${LAPACK_LIBRARIES} ${BLAS_LIBRARIES})
+endif()

@@ -1,0 +1,18 @@
+// Marks what the library dpe_estimation shows; all else in it is hidden.
+//
+// Where shared libraries are DLLs, DPE_SHARED and, while the library itself is
+// compiled, dpe_estimation_EXPORTS come from CMake.
+#ifndef DPE_ESTIMATION_EXPORT_H_
+#define DPE_ESTIMATION_EXPORT_H_
+
+#if defined(_WIN32) && defined(dpe_estimation_EXPORTS)
+#define DPE_ESTIMATION_API __declspec(dllexport)
+#elif defined(_WIN32) && defined(DPE_SHARED)
+#define DPE_ESTIMATION_API __declspec(dllimport)
+#elif defined(__GNUC__) && !defined(_WIN32)
+#define DPE_ESTIMATION_API __attribute__((visibility("default")))
+#else
+#define DPE_ESTIMATION_API
+#endif
+
+#endif  // DPE_ESTIMATION_EXPORT_H_
