@@ -119,6 +119,20 @@ TEST(GnuplotTest, LeavesOutWhatCannotBeDrawn) {
   EXPECT_EQ(GnuplotScript(empty, "plot.svg"), "");
 }
 
+TEST(GnuplotTest, StylesAndNamesOfTheAxisAreTaken) {
+  Plot plot = TwoSeries();
+  const std::string without = GnuplotScript(plot, "plot.svg");
+  EXPECT_EQ(without.find("ytics"), std::string::npos);
+  EXPECT_EQ(without.find("#8c6d31"), std::string::npos);
+  plot.series[0].style = 7;
+  plot.y_names = {{1.0, "one \"a\""}, {2.5, "b"}};
+  const std::string script = GnuplotScript(plot, "plot.svg");
+  EXPECT_NE(script.find("set ytics noenhanced (\"one \\\"a\\\"\" 1, \"b\" 2.5)"),
+            std::string::npos)
+      << script;
+  EXPECT_NE(script.find("#8c6d31"), std::string::npos);
+}
+
 TEST(GnuplotTest, DrawsAnSvgWithTitleAndAxes) {
   if (RunCommand({"gnuplot", "--version"}).exit_code != 0) {
     GTEST_SKIP() << "gnuplot is not installed";

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/record.h"
@@ -53,6 +54,7 @@ struct Series {
   bool marks = true;  // marked
   std::vector<double> x, y;
   std::vector<std::string> annotations;  // beside the marks; empty: none
+  int style = -1;  // colour and mark, from 0; negative: its place in the plot
 };
 
 // A plot, drawn by gnuplot into NAME.svg.
@@ -61,6 +63,8 @@ struct Plot {
   std::string title;
   std::string x_label, y_label;  // with units
   bool log_x = false, log_y = false;
+  // Names in place of numbers along the y axis; empty: numbers.
+  std::vector<std::pair<double, std::string>> y_names;
   std::vector<Series> series;
 };
 

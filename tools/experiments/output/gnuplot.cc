@@ -58,7 +58,18 @@ std::string Axis(const std::string& axis, const std::string& label, bool log) {
   return text;
 }
 
+// Empty for numbers.
+std::string YNames(const Plot& plot) {
+  if (plot.y_names.empty()) return "";
+  std::ostringstream command;
+  for (const auto& [value, name] : plot.y_names) {
+    command << (command.tellp() > 0 ? ", " : "") << Quoted(name) << ' ' << value;
+  }
+  return "set ytics noenhanced (" + command.str() + ")\n";
+}
+
 std::string SeriesCommand(const Series& series, const std::string& data, size_t index) {
+  if (series.style >= 0) index = static_cast<size_t>(series.style);
   const size_t style = index % kNumStyles;
   std::ostringstream command;
   command << data << " using 1:2 with "
@@ -87,7 +98,7 @@ std::string GnuplotScript(const Plot& plot, const std::string& svg_path) {
          << "set output " << Quoted(svg_path) << "\n"
          << "set title " << Quoted(plot.title) << " noenhanced font \",16\"\n"
          << Axis("x", plot.x_label, plot.log_x) << Axis("y", plot.y_label, plot.log_y)
-         << "set grid lc rgb \"#dddddd\" lt 1\n"
+         << YNames(plot) << "set grid lc rgb \"#dddddd\" lt 1\n"
          << "set key outside right top Left reverse samplen 2 spacing 1.2\n"
          << "set offsets graph 0.02, graph 0.02, graph 0.02, graph 0.02\n";
   // What has no point is not in the legend either, but keeps its colour from the

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "dpe/engine/scene.h"
 #include "experiments/stability/energy_history.h"
@@ -13,6 +14,11 @@ namespace {
 
 // The Krylov solver's marks stand this much above the direct one's.
 constexpr double kAbove = 0.25;
+
+// The same in every plot: green where all is well, then orange, red where it failed.
+constexpr std::pair<const char*, int> kResultStyles[] = {
+    {"accurate", 2}, {"inaccurate", 4}, {"undecided", 5}, {"blown_up", 3},
+    {"failed", 1},   {"refused", 6},    {"crashed", 0},   {"timed_out", 7}};
 
 Series Marks(const std::string& label) {
   Series series;
@@ -27,11 +33,14 @@ Plot AxisPlot(const std::vector<Row>& rows, const StabilityAxis& axis) {
   plot.name = "stability_" + axis.name;
   plot.title = "What came of each integrator: " + axis.label;
   plot.x_label = axis.label;
-  plot.y_label = "integrationMethod (a little higher: solver cg)";
+  plot.y_label = "integrator (a little higher: with solver cg)";
   plot.log_x = true;
-  for (const char* result : {"accurate", "inaccurate", "undecided", "blown_up",
-                             "failed", "refused", "crashed", "timed_out"}) {
+  for (int method = 0; method <= 4; ++method) {
+    plot.y_names.emplace_back(method, MethodName(method));
+  }
+  for (const auto& [result, style] : kResultStyles) {
     Series series = Marks(result);
+    series.style = style;
     for (const Row& row : rows) {
       if (row.Text("kind", "") != "stability" || row.Text("axis", "") != axis.name ||
           ResultOf(row) != result) {
