@@ -77,6 +77,26 @@ std::vector<std::array<int, 3>> ReadTriangles(const std::string& path,
   return triangles;
 }
 
+// The triangles of a face are its corners less two. The loader makes fewer, without a
+// warning, where it cannot cut a face up: one that touches itself, say.
+void RequireWholeFaces(const std::string& path, const std::string& text, size_t made) {
+  size_t expected = 0;
+  std::istringstream lines(text);
+  std::string line, word;
+  while (std::getline(lines, line)) {
+    std::istringstream words(line);
+    if (!(words >> word) || word != "f") continue;
+    size_t corners = 0;
+    while (words >> word) ++corners;
+    if (corners > 2) expected += corners - 2;
+  }
+  if (made == expected) return;
+  throw SceneError(path + ": its faces are " + std::to_string(expected) +
+                   " triangles, of which " + std::to_string(made) +
+                   " could be cut out; expected faces whose corners are different and "
+                   "go around them once");
+}
+
 }  // namespace
 
 TriangleMesh LoadObjMesh(const std::string& path) {
@@ -85,6 +105,7 @@ TriangleMesh LoadObjMesh(const std::string& path) {
   TriangleMesh mesh;
   mesh.triangles = ReadTriangles(path, text);
   if (mesh.triangles.empty()) throw SceneError(path + ": it has no faces");
+  RequireWholeFaces(path, text, mesh.triangles.size());
 
   const int num_vertices = static_cast<int>(coordinates.size() / 3);
   std::vector<int> new_index(num_vertices, -1);

@@ -88,6 +88,9 @@ TEST(ObjMesh, RefusesFilesThatAreNoMesh) {
               HasSubstr("mesh.obj"));
   EXPECT_THAT(ErrorOfLoading(std::string(kSquare) + "f 1 2 3\nf 1 2\n"),
               HasSubstr("egenerated"));
+  // Found by fuzzing: of this face one triangle was made, and nothing said.
+  EXPECT_THAT(ErrorOfLoading(std::string(kSquare) + kSquare + "f 2 3 1 6 3 1 6\n"),
+              AllOf(HasSubstr("mesh.obj"), HasSubstr("5 triangles, of which")));
   const TempDir folder;
   EXPECT_THROW(LoadObjMesh(folder.path()), SceneError);
   try {

@@ -55,7 +55,7 @@ fuzz() {
   mkdir -p "$findings" "$found"
   rm -f "$findings"/*
   # New inputs go to the first folder, the build's; the seeds are only read.
-  "$program" -max_total_time="$seconds" -max_len="$limit" -timeout=10 \
+  "$program" -max_total_time="$seconds" -max_len="$limit" -timeout=60 \
       -rss_limit_mb=1024 -malloc_limit_mb=1024 -print_final_stats=1 \
       -artifact_prefix="$findings/" "$found" "$here/corpus/$target" \
       > "$log" 2>&1 || status=$?

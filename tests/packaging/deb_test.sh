@@ -41,7 +41,9 @@ contains() {  # PACKAGE PATTERN...
     grep -qE -- "$pattern" <<< "$files" || fail "no $pattern in: $files"
   done
 }
-depends dpe libc6 libceres3 'libgflags2.*' libcholmod3 libspqr2 'libstdc\+\+6'
+# Debian's CMake target of Ceres is its static library.
+depends dpe libc6 'libgflags2.*' 'libgoogle-glog0.*' libcholmod3 libspqr2 \
+    'libopenblas0.*|libblas3|libblas.so.3' 'libstdc\+\+6'
 depends dpe-viewer dpe libvulkan1 'libglfw3.*'
 depends libdpe-dev dpe libceres-dev libeigen3-dev
 depends python3-dpe dpe python3-numpy

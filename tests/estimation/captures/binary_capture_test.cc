@@ -171,8 +171,10 @@ TEST_F(Pc2Capture, BadFilesAreRefusedWithTheirByte) {
   EXPECT_THAT(ErrorOfReading(PointCache(1, 4, 0, 1, -2)),
               AllOf(StartsWith(path_ + ": byte 28: "), HasSubstr("is -2")));
   // More bytes than a whole number holds.
-  EXPECT_THAT(ErrorOfReading(PointCache(1, 2147483647, 0, 1, 2147483647)),
-              HasSubstr("is the end of the file; accepted is an end at byte 5.534023"));
+  EXPECT_THAT(
+      ErrorOfReading(PointCache(1, 2147483647, 0, 1, 2147483647)),
+      HasSubstr(
+          "is the end of the file; accepted is an end at byte 55340232169589047296"));
   const std::string whole = PointCache(1, 4, 0, 1, 2);
   EXPECT_THAT(ErrorOfReading(whole.substr(0, 20)),
               AllOf(StartsWith(path_ + ": byte 20: "), HasSubstr("32 bytes")));

@@ -54,7 +54,7 @@ dpe_status SetNumber(CallOrderPlayer* p, dpe_estimation estimation) {
 }
 
 template <class Number, class Get>
-OneCall GetNumbers(const char* name, const Get& get) {
+OneCall GetNumbers(const char* name, Get get) {
   return OnHandle(name, kEstimation, [=](CallOrderPlayer* p, dpe_estimation e) {
     dpe_status status = DPE_OK;
     const int block = p->Int();
@@ -66,7 +66,7 @@ OneCall GetNumbers(const char* name, const Get& get) {
 }
 
 template <class Get>
-OneCall GetText(const char* name, const Get& get) {
+OneCall GetText(const char* name, Get get) {
   return OnHandle(name, kEstimation, [=](CallOrderPlayer* p, dpe_estimation e) {
     dpe_status status = DPE_OK;
     p->WithBuffer<char>(name, [&](char* buffer, int size, int* length) {

@@ -28,7 +28,7 @@ dpe_status FromJson(CallOrderPlayer* p, dpe_scene* scene) {
 }
 
 template <class Number, class Get>
-OneCall GetNumbers(const char* name, const Get& get) {
+OneCall GetNumbers(const char* name, Get get) {
   return OnHandle(name, kScene, [=](CallOrderPlayer* p, dpe_scene scene) {
     dpe_status status = DPE_OK;
     const int object = p->Int() % 3;
@@ -40,7 +40,7 @@ OneCall GetNumbers(const char* name, const Get& get) {
 }
 
 template <class Get>
-OneCall GetText(const char* name, const Get& get) {
+OneCall GetText(const char* name, Get get) {
   return OnHandle(name, kScene, [=](CallOrderPlayer* p, dpe_scene scene) {
     dpe_status status = DPE_OK;
     p->WithBuffer<char>(name, [&](char* buffer, int size, int* length) {
