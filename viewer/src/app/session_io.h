@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "app/panel.h"
 #include "app/session.h"
 
 namespace dpe::viewer {
@@ -14,12 +15,16 @@ struct WindowState {
   long pictures = 0;          // drawn so far
   double pictures_per_second = 0.0;
   double cursor_x = 0.0, cursor_y = 0.0;
+  bool button_down = false;  // of the mouse
   std::string device;
+  WidgetPlaces widgets;
 };
 
-// frame, first_frame, last_frame, time_s, paused, live, color, camera {yaw, pitch,
-// distance, target}, size, cursor, help, error_m (null: not known), message, failure;
-// and what changes without anything being done: pictures, pictures_per_second,
+// frame, first_frame, last_frame, time_s, paused, live, speed, color, missing (for the
+// colours), camera {yaw, pitch, distance, target}, size, cursor, button_down, help,
+// error_m (null: not known), tuning {stiffness, mass, damping, drag: of the first
+// object; wind}, widgets {at_NAME: [x, y] of its middle in the window}, message,
+// failure; and what changes without anything being done: pictures, pictures_per_second,
 // frame_ms, rate, device.
 std::string StateJson(const Session& session, const WindowState& window);
 

@@ -131,6 +131,8 @@ class WindowApp {
   void Draw() {
     // An event of the simulation may come long before the next picture is due.
     const double now = glfwGetTime();
+    is_visible_ = !IsMinimised();
+    if (!is_visible_) return;
     glfwGetFramebufferSize(window(), &state_.width, &state_.height);
     const Picture picture =
         session_->MakePicture(state_.width, state_.height, kPanelWidth);
@@ -148,8 +150,17 @@ class WindowApp {
     }
     last_draw_ = now;
     panel_.pictures_per_second = state_.pictures_per_second;
+    state_.widgets = panel_.widgets;
     if (session_->TakePngRequest()) SavePng();
     WriteState();
+  }
+
+  // Some systems say it by a size of 0 by 0; X11 leaves the size as it is.
+  bool IsMinimised() {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window(), &width, &height);
+    return width == 0 || height == 0 ||
+           glfwGetWindowAttrib(window(), GLFW_ICONIFIED) == GLFW_TRUE;
   }
 
   void SavePng() {
@@ -222,7 +233,8 @@ class WindowApp {
 
   void OnButton(int button, int action, int mods) {
     OnEvent();
-    drags_ = action == GLFW_PRESS && !UiTakesMouse();
+    state_.button_down = action == GLFW_PRESS;
+    drags_ = state_.button_down && !UiTakesMouse();
     pans_ = button == GLFW_MOUSE_BUTTON_RIGHT || button == GLFW_MOUSE_BUTTON_MIDDLE ||
             (mods & GLFW_MOD_SHIFT) != 0;
   }
