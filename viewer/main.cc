@@ -27,9 +27,15 @@ DEFINE_string(
     target, "",
     "What was observed, in any format that estimate_cloth --target reads; the "
     "scene is then a green wireframe over it.");
-DEFINE_string(trajectory, "",
-              "A recorded motion of the scene to play in place of a simulation, as "
-              "simulate_cloth and estimate_cloth write it.");
+DEFINE_string(
+    trajectory, "",
+    "A recorded motion of the scene to play in place of a simulation, as "
+    "simulate_cloth and estimate_cloth write it, or in any format of --target.");
+DEFINE_double(trajectory_scale, 0.0,
+              "Metres per unit of the trajectory; 0: what the file says, else 1.");
+DEFINE_string(trajectory_up, "y", "The trajectory's axis that points up: y or z.");
+DEFINE_double(trajectory_rate, 0.0,
+              "Frames per second of a trajectory without times; 0: the scene's.");
 DEFINE_string(
     report, "",
     "report.json of estimate_cloth, for the colouring by standard deviation.");
@@ -88,6 +94,15 @@ void PrintWarnings(const std::vector<std::string>& warnings) {
   }
 }
 
+TargetOptions TrajectoryFromFlags() {
+  TargetOptions trajectory;
+  trajectory.capture.scale = FLAGS_trajectory_scale;
+  trajectory.capture.up =
+      FromFlag("trajectory_up", FLAGS_trajectory_up, UpAxisFromName);
+  trajectory.capture.rate = FLAGS_trajectory_rate;
+  return trajectory;
+}
+
 PlayerSources SourcesFromFlags() {
   PlayerSources sources;
   std::vector<std::string> warnings;
@@ -98,7 +113,8 @@ PlayerSources SourcesFromFlags() {
   }
   if (!FLAGS_trajectory.empty()) {
     Scene scene = sources.scene;
-    sources.trajectory = LoadRecordedMotion(FLAGS_trajectory, {}, &scene, &warnings);
+    sources.trajectory =
+        LoadRecordedMotion(FLAGS_trajectory, TrajectoryFromFlags(), &scene, &warnings);
     if (!sources.trajectory->shows_vertices()) {
       throw SceneError("--trajectory: " + FLAGS_trajectory +
                        " shows no vertices, only markers; it can be a --target");
@@ -214,6 +230,8 @@ void CheckRanges() {
   tools::RequireAtLeast("first_frame", FLAGS_first_frame, 0);
   tools::RequireAtLeast("every", FLAGS_every, 1);
   tools::RequireAtLeast("speed", FLAGS_speed, 0.001);
+  tools::RequireAtLeast("trajectory_scale", FLAGS_trajectory_scale, 0.0);
+  tools::RequireAtLeast("trajectory_rate", FLAGS_trajectory_rate, 0.0);
   tools::RequireAtLeast("zoom", FLAGS_zoom, 0.001);
   if (!FLAGS_offscreen && !FLAGS_video.empty()) {
     throw SceneError("--video: needs --offscreen");
