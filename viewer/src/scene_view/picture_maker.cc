@@ -99,6 +99,9 @@ Picture PictureMaker::Make(const Player& player, const ViewOptions& options) {
     AddWireframe(compared_shapes_, *compared, target != nullptr ? kOrange : kGreen,
                  &picture);
   }
+  // Those of the guides are elsewhere, and edges are a part of their surface.
+  const bool along = target != nullptr || compared != nullptr || options.springs;
+  for (Surface& surface : picture.surfaces) surface.under_lines = along;
   if (options.fixed_vertices) AddFixedVertices(player.motion(), &picture);
   AddMarkers(player, &picture);
   return picture;
@@ -183,11 +186,15 @@ void PictureMaker::AddCloths(const Layer& layer, const ViewOptions& options,
           shape.MakeSurface(*x, scale_ && !values[o].of_vertices.empty()
                                     ? Colors(*scale_, values[o].of_vertices)
                                     : std::vector<glm::vec4>(n, uncolored)));
+      picture->surfaces.back().edge_color = kEdgeColor;
+      picture->surfaces.back().edge_width = options.wireframe ? 1.0f : 0.0f;
     }
-    // Over a surface edges are shadows; alone they are the cloth.
-    if (options.wireframe) {
-      picture->lines.push_back(ClothShape::MakeLines(
-          *x, shape.edges(), {options.surface ? kEdgeColor : kClothColor}));
+    if (options.surface && options.wireframe) {
+      // Of a line at the border the surface has the inner half only.
+      picture->lines.push_back(ClothShape::MakeLines(*x, shape.border(), {kEdgeColor}));
+    } else if (options.wireframe) {
+      // Without a surface edges are the cloth.
+      picture->lines.push_back(ClothShape::MakeLines(*x, shape.edges(), {kClothColor}));
     }
     if (options.springs) {
       const bool colored = scale_ && !values[o].of_springs.empty();
