@@ -66,6 +66,10 @@ DEFINE_bool(panel, false, "Off screen: draw the panel.");
 DEFINE_string(device, "",
               "Graphics device: its number in --list_devices, or a part of "
               "its name; empty: the best.");
+DEFINE_int32(
+    samples, 4,
+    "Samples per pixel, 1, 2, 4 or 8, as far as the device can: fewer are drawn "
+    "faster, with steps at the cloth's edge.");
 DEFINE_bool(list_devices, false, "List the graphics devices and end.");
 DEFINE_bool(validation, false,
             "Have the validation layer check all drawing; its messages are errors.");
@@ -230,6 +234,11 @@ void CheckRanges() {
   tools::RequireAtLeast("first_frame", FLAGS_first_frame, 0);
   tools::RequireAtLeast("every", FLAGS_every, 1);
   tools::RequireAtLeast("speed", FLAGS_speed, 0.001);
+  if (FLAGS_samples != 1 && FLAGS_samples != 2 && FLAGS_samples != 4 &&
+      FLAGS_samples != 8) {
+    throw SceneError("--samples: " + std::to_string(FLAGS_samples) +
+                     " is not accepted; expected 1, 2, 4 or 8");
+  }
   tools::RequireAtLeast("trajectory_scale", FLAGS_trajectory_scale, 0.0);
   tools::RequireAtLeast("trajectory_rate", FLAGS_trajectory_rate, 0.0);
   tools::RequireAtLeast("zoom", FLAGS_zoom, 0.001);
@@ -247,6 +256,7 @@ int Main() {
   tools::UseOneBlasThread();
   DeviceOptions device;
   device.device = FLAGS_device;
+  device.samples = FLAGS_samples;
   device.validation = FLAGS_validation;
   device.log = std::make_shared<ValidationLog>();
   const std::unique_ptr<Session> session = SessionFromFlags();

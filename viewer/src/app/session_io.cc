@@ -62,6 +62,7 @@ std::string StateJson(const Session& session, const WindowState& window) {
   Json json = State(session, window);
   json["pictures"] = window.pictures;
   json["pictures_per_second"] = window.pictures_per_second;
+  json["draft"] = window.is_draft;
   json["frame_ms"] = session.player().frame_ms();
   json["rate"] = session.player().rate();
   json["device"] = window.device;
