@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/offscreen_renderer.h"
+#include "support/sanitizers.h"
 #include "vk/buffer.h"
 #include "vk/device.h"
 #include "vk/instance.h"
@@ -48,6 +49,7 @@ TEST(ValidationTest, WhatIsLeftOverIsHeard) {
     const vk::Device device(instance.get(), VK_NULL_HANDLE, {});
     VkSemaphoreCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+    const test::LeakOnPurpose unheard;
     ASSERT_EQ(vkCreateSemaphore(device.get(), &info, nullptr, &semaphore), VK_SUCCESS);
     EXPECT_THAT(options.log->messages(), IsEmpty());
   }
