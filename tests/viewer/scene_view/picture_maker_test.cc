@@ -93,6 +93,22 @@ TEST(PictureMakerTest, ShowsTheSceneAsASurfaceWithItsPins) {
   EXPECT_TRUE(maker.Make(player, nothing).lines.empty());
 }
 
+// The ground's lines are drawn along a plane.
+TEST(PictureMakerTest, CollidersAreUnderLines) {
+  PlayerSources sources;
+  sources.scene = test::MakeDerivativeScene("side", 4);
+  Collider plane;
+  plane.type = ColliderType::kPlane;
+  plane.position = {0.0, -3.0, 0.0};
+  sources.scene.colliders = {plane};
+  Player player(std::move(sources));
+  PictureMaker maker(player.scene(), nullptr, {});
+  const Picture picture = maker.Make(player, ViewOptions());
+  ASSERT_EQ(picture.surfaces.size(), 2);
+  EXPECT_TRUE(picture.surfaces[0].under_lines);
+  EXPECT_FALSE(picture.surfaces[1].under_lines);
+}
+
 TEST(PictureMakerTest, ShowsTheEstimateAsAGreenWireframeOverTheTarget) {
   const Scene scene = test::MakeDerivativeScene("side", 4);
   Scene stiffer = scene;

@@ -146,7 +146,8 @@ class WindowApp {
     glfwGetFramebufferSize(window(), &state_.width, &state_.height);
     const Picture picture =
         session_->MakePicture(state_.width, state_.height, kPanelWidth);
-    state_.is_draft = drafts_.Next(IsInMotion()) && !session_->wants_png();
+    state_.is_draft = drafts_.Next(IsInMotion()) && !session_->wants_png() &&
+                      renderer_->samples() > 1;
     is_visible_ = renderer_->Draw(
         picture,
         [this] {

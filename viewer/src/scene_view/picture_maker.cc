@@ -99,9 +99,6 @@ Picture PictureMaker::Make(const Player& player, const ViewOptions& options) {
     AddWireframe(compared_shapes_, *compared, target != nullptr ? kOrange : kGreen,
                  &picture);
   }
-  // Those of the guides are elsewhere, and edges are a part of their surface.
-  const bool along = target != nullptr || compared != nullptr || options.springs;
-  for (Surface& surface : picture.surfaces) surface.under_lines = along;
   if (options.fixed_vertices) AddFixedVertices(player.motion(), &picture);
   AddMarkers(player, &picture);
   return picture;
@@ -187,6 +184,9 @@ void PictureMaker::AddCloths(const Layer& layer, const ViewOptions& options,
                                     ? Colors(*scale_, values[o].of_vertices)
                                     : std::vector<glm::vec4>(n, uncolored)));
       picture->surfaces.back().edge_color = kEdgeColor;
+      // Where there is a reference, one of the two is a wireframe along the other.
+      picture->surfaces.back().under_lines =
+          options.springs || layer.reference != nullptr;
       picture->surfaces.back().edge_width = options.wireframe ? 1.0f : 0.0f;
     }
     if (options.surface && options.wireframe) {
