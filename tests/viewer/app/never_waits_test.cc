@@ -16,6 +16,7 @@
 #include "dpe/engine/cloth_builder.h"
 #include "dpe/engine/simulator.h"
 #include "render/offscreen_renderer.h"
+#include "support/sanitizers.h"
 
 namespace dpe::viewer {
 namespace {
@@ -24,9 +25,15 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience{120};
 
+#ifdef DPE_TEST_SANITIZED
+constexpr int kSide = 24;  // a sanitizer makes a cloth heavy enough
+#else
+constexpr int kSide = 96;
+#endif
+
 Scene Cloth() {
   PresetOptions preset;
-  preset.rows = preset.cols = 96;
+  preset.rows = preset.cols = kSide;
   return MakePresetScene(ScenePreset::kSide, preset);
 }
 

@@ -74,10 +74,20 @@ press_widget() {
   place="$(field "at_$1")"
   IFS=, read -r x y <<< "${place//[][]/}"
   x=$((x + ${2:-0}))
-  xdotool mousemove --window "$window" "$x" "$y"
-  until_is cursor "[$x.0,$y.0]"
+  move_to "$x" "$y"
   xdotool mousedown 1; until_is button_down true
   xdotool mouseup 1; until_is button_down false
+}
+
+move_to() {  # X Y
+  xdotool mousemove --window "$window" "$1" "$2"
+  until_is cursor "[$1.0,$2.0]"
+}
+
+drag() {  # BUTTON RIGHT DOWN
+  xdotool mousedown "$1"; until_is button_down true
+  xdotool mousemove_relative -- "$2" "$3"
+  xdotool mouseup "$1"; until_is button_down false
 }
 
 # set_wm_state NUMBER: what a window manager, which is not there, says of a window:
@@ -169,24 +179,19 @@ key Home; wait_for "Home restarts" is frame 0
 
 yaw="$(field yaw)" pitch="$(field pitch)" distance="$(field distance)"
 target="$(field target)"
-xdotool mousemove --window "$window" 600 400
-sleep 0.2
-xdotool mousedown 1; sleep 0.1
-xdotool mousemove_relative -- 80 30; sleep 0.2
-xdotool mouseup 1
+move_to 600 400
+drag 1 80 30
 wait_for "a left drag to the right orbits" below yaw "$yaw"
 wait_for "and down raises the camera" above pitch "$pitch"
 wait_for "but does not pan" is target "$target"
 orbited="$(field yaw)"
-xdotool mousedown 3; sleep 0.1
-xdotool mousemove_relative -- 40 20; sleep 0.2
-xdotool mouseup 3
+drag 3 40 20
 wait_for "a right drag pans" is_not target "$target"
 wait_for "but does not orbit" is yaw "$orbited"
 panned="$(field target)"
-xdotool keydown shift; xdotool mousedown 1; sleep 0.1
-xdotool mousemove_relative -- -30 10; sleep 0.2
-xdotool mouseup 1; xdotool keyup shift
+xdotool keydown shift
+drag 1 -30 10
+xdotool keyup shift
 wait_for "so does a drag with Shift" is_not target "$panned"
 wait_for "which does not orbit either" is yaw "$orbited"
 xdotool click 4; wait_for "the wheel comes closer" below distance "$distance"
