@@ -35,7 +35,9 @@ fi
 # Sums in a fixed order, whatever the number of processors.
 export OPENBLAS_NUM_THREADS=1
 export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
-export TSAN_OPTIONS="${TSAN_OPTIONS:-halt_on_error=1}"
+# Programs' own output is compared by tests, so suppressions are used in silence.
+export LSAN_OPTIONS="${LSAN_OPTIONS:-print_suppressions=0 suppressions=$PWD/tests/leak_suppressions.txt}"
+export TSAN_OPTIONS="${TSAN_OPTIONS:-halt_on_error=1 print_suppressions=0 suppressions=$PWD/tests/race_suppressions.txt}"
 
 # build_and_test PRESET
 build_and_test() {

@@ -27,9 +27,15 @@ DEFINE_string(
     target, "",
     "What was observed, in any format that estimate_cloth --target reads; the "
     "scene is then a green wireframe over it.");
-DEFINE_string(trajectory, "",
-              "A recorded motion of the scene to play in place of a simulation, as "
-              "simulate_cloth and estimate_cloth write it.");
+DEFINE_string(
+    trajectory, "",
+    "A recorded motion of the scene to play in place of a simulation, as "
+    "simulate_cloth and estimate_cloth write it, or in any format of --target.");
+DEFINE_double(trajectory_scale, 0.0,
+              "Metres per unit of the trajectory; 0: what the file says, else 1.");
+DEFINE_string(trajectory_up, "y", "The trajectory's axis that points up: y or z.");
+DEFINE_double(trajectory_rate, 0.0,
+              "Frames per second of a trajectory without times; 0: the scene's.");
 DEFINE_string(
     report, "",
     "report.json of estimate_cloth, for the colouring by standard deviation.");
@@ -60,6 +66,10 @@ DEFINE_bool(panel, false, "Off screen: draw the panel.");
 DEFINE_string(device, "",
               "Graphics device: its number in --list_devices, or a part of "
               "its name; empty: the best.");
+DEFINE_int32(
+    samples, 4,
+    "Samples per pixel, 1, 2, 4 or 8, as far as the device can: fewer are drawn "
+    "faster, with steps at the cloth's edge.");
 DEFINE_bool(list_devices, false, "List the graphics devices and end.");
 DEFINE_bool(validation, false,
             "Have the validation layer check all drawing; its messages are errors.");
@@ -88,6 +98,15 @@ void PrintWarnings(const std::vector<std::string>& warnings) {
   }
 }
 
+TargetOptions TrajectoryFromFlags() {
+  TargetOptions trajectory;
+  trajectory.capture.scale = FLAGS_trajectory_scale;
+  trajectory.capture.up =
+      FromFlag("trajectory_up", FLAGS_trajectory_up, UpAxisFromName);
+  trajectory.capture.rate = FLAGS_trajectory_rate;
+  return trajectory;
+}
+
 PlayerSources SourcesFromFlags() {
   PlayerSources sources;
   std::vector<std::string> warnings;
@@ -98,7 +117,8 @@ PlayerSources SourcesFromFlags() {
   }
   if (!FLAGS_trajectory.empty()) {
     Scene scene = sources.scene;
-    sources.trajectory = LoadRecordedMotion(FLAGS_trajectory, {}, &scene, &warnings);
+    sources.trajectory =
+        LoadRecordedMotion(FLAGS_trajectory, TrajectoryFromFlags(), &scene, &warnings);
     if (!sources.trajectory->shows_vertices()) {
       throw SceneError("--trajectory: " + FLAGS_trajectory +
                        " shows no vertices, only markers; it can be a --target");
@@ -214,6 +234,13 @@ void CheckRanges() {
   tools::RequireAtLeast("first_frame", FLAGS_first_frame, 0);
   tools::RequireAtLeast("every", FLAGS_every, 1);
   tools::RequireAtLeast("speed", FLAGS_speed, 0.001);
+  if (FLAGS_samples != 1 && FLAGS_samples != 2 && FLAGS_samples != 4 &&
+      FLAGS_samples != 8) {
+    throw SceneError("--samples: " + std::to_string(FLAGS_samples) +
+                     " is not accepted; expected 1, 2, 4 or 8");
+  }
+  tools::RequireAtLeast("trajectory_scale", FLAGS_trajectory_scale, 0.0);
+  tools::RequireAtLeast("trajectory_rate", FLAGS_trajectory_rate, 0.0);
   tools::RequireAtLeast("zoom", FLAGS_zoom, 0.001);
   if (!FLAGS_offscreen && !FLAGS_video.empty()) {
     throw SceneError("--video: needs --offscreen");
@@ -229,6 +256,7 @@ int Main() {
   tools::UseOneBlasThread();
   DeviceOptions device;
   device.device = FLAGS_device;
+  device.samples = FLAGS_samples;
   device.validation = FLAGS_validation;
   device.log = std::make_shared<ValidationLog>();
   const std::unique_ptr<Session> session = SessionFromFlags();

@@ -13,4 +13,35 @@
 #endif
 #endif
 
+#if defined(__SANITIZE_ADDRESS__)
+#define DPE_TEST_FINDS_LEAKS
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define DPE_TEST_FINDS_LEAKS
+#endif
+#endif
+
+#ifdef DPE_TEST_FINDS_LEAKS
+extern "C" void __lsan_disable();
+extern "C" void __lsan_enable();
+#endif
+
+namespace dpe::test {
+
+// While one lives, what is allocated on its thread may be lost.
+class LeakOnPurpose {
+ public:
+#ifdef DPE_TEST_FINDS_LEAKS
+  LeakOnPurpose() { __lsan_disable(); }
+  ~LeakOnPurpose() { __lsan_enable(); }
+#else
+  LeakOnPurpose() = default;
+  ~LeakOnPurpose() {}  // not trivial: one that is never used is meant
+#endif
+  LeakOnPurpose(const LeakOnPurpose&) = delete;
+  LeakOnPurpose& operator=(const LeakOnPurpose&) = delete;
+};
+
+}  // namespace dpe::test
+
 #endif  // DPE_TESTS_SUPPORT_SANITIZERS_H_

@@ -45,8 +45,9 @@ Picture Flat() {
 // A square of half the image's width in the middle, facing the viewer.
 Surface Square(float z, const glm::vec4& color) {
   Surface square;
-  square.topology = std::make_shared<Topology>(
-      Topology{std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}});
+  square.topology =
+      std::make_shared<Topology>(Topology{std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3},
+                                          std::vector<std::uint32_t>{0, 1, 2, 1}});
   square.positions = {
       {-0.5f, -0.5f, z}, {0.5f, -0.5f, z}, {0.5f, 0.5f, z}, {-0.5f, 0.5f, z}};
   square.normals.assign(4, glm::vec3(0, 0, 1));
@@ -136,7 +137,7 @@ TEST_F(OffscreenRendererTest, TheBackIsDarkerAndBluer) {
   const auto front = At(Draw(picture), 32, 32);
   Surface& square = picture.surfaces[0];
   square.topology = std::make_shared<Topology>(
-      Topology{std::vector<std::uint32_t>{1, 0, 2, 2, 0, 3}});
+      Topology{std::vector<std::uint32_t>{1, 0, 2, 2, 0, 3}, {}});
   square.normals.assign(4, glm::vec3(0, 0, -1));
   const auto back = At(Draw(picture), 32, 32);
   EXPECT_EQ(front[0], front[2]);
@@ -211,6 +212,45 @@ TEST_F(OffscreenRendererTest, EdgesAreSmooth) {
   EXPECT_GT(between, kSize);
 }
 
+TEST_F(OffscreenRendererTest, ASurfaceHasTheEdgesOfItsTriangles) {
+  Picture picture = Flat();
+  picture.surfaces = {Square(0, kBlue)};
+  EXPECT_EQ(CountRed(Draw(picture)), 0);
+  picture.surfaces[0].edge_color = kRed;
+  picture.surfaces[0].edge_width = 3.0f;
+  const Image image = Draw(picture);
+  const std::array<int, 3> red = {255, 0, 0};
+  for (const int along : {20, 32, 44}) {
+    EXPECT_EQ(At(image, along, 63 - along), red);  // the diagonal, up to the right
+    EXPECT_EQ(At(image, 16, along), red);
+    EXPECT_EQ(At(image, 47, along), red);
+    EXPECT_EQ(At(image, along, 16), red);
+    EXPECT_EQ(At(image, along, 47), red);
+    EXPECT_NE(At(image, 14, along), red);  // what is outside is no part of the surface
+  }
+  for (const int off : {24, 40}) {
+    EXPECT_LT(At(image, off, off)[0], 50) << "between the edges";
+  }
+  // Wholly covered is a pixel inside of each of the four sides, and one on both sides
+  // of the diagonal.
+  const double expected = 32 * 32 - 30 * 30 + 3 * 28;
+  EXPECT_NEAR(CountRed(image), expected, 0.1 * expected);
+  picture.surfaces[0].edge_color.a = 0.0f;
+  EXPECT_EQ(CountRed(Draw(picture)), 0);
+}
+
+TEST_F(OffscreenRendererTest, EdgesThatWouldHideTheSurfaceFade) {
+  Picture picture = Flat();
+  picture.surfaces = {Square(0, kBlue)};
+  picture.surfaces[0].edge_color = kRed;
+  picture.surfaces[0].edge_width = 1.0f;
+  EXPECT_GT(CountRed(Draw(picture)), 30);
+  for (glm::vec3& position : picture.surfaces[0].positions) position *= 0.12f;
+  const Image image = Draw(picture);  // triangles of less than four pixels
+  EXPECT_EQ(CountRed(image), 0);
+  EXPECT_GT(At(image, 31, 32)[2], At(image, 31, 32)[0]);
+}
+
 TEST_F(OffscreenRendererTest, TopologiesMayChangeAndGrow) {
   OffscreenRenderer renderer(options_, kSize, kSize);
   for (const int side : {4, 8, 3, 60, 12}) {
@@ -245,6 +285,12 @@ TEST_F(OffscreenRendererTest, PicturesThatDoNotFitTogetherAreRefused) {
   picture.surfaces[0].positions.pop_back();
   picture.surfaces[0].normals.pop_back();
   picture.surfaces[0].colors.pop_back();
+  EXPECT_THROW(renderer.Render(picture), std::invalid_argument);
+  Surface bare = Square(0, kRed);
+  bare.topology = std::make_shared<Topology>(Topology{bare.topology->triangles, {}});
+  picture.surfaces = {bare};
+  EXPECT_GT(CountRed(renderer.Render(picture)), 0);
+  picture.surfaces[0].edge_width = 1.0f;  // needs corners
   EXPECT_THROW(renderer.Render(picture), std::invalid_argument);
   picture.surfaces = {Square(0, kRed)};
   EXPECT_GT(CountRed(renderer.Render(picture)), 0);

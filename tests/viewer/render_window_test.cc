@@ -67,6 +67,25 @@ TEST_F(WindowRendererTest, ShowsWhatOffscreenDraws) {
   EXPECT_EQ(image.rgba, Offscreen(picture, 320, 240).rgba);
 }
 
+TEST_F(WindowRendererTest, ADraftHasOneSamplePerPixel) {
+  WindowRenderer renderer(window_, options_);
+  if (renderer.samples() == 1) GTEST_SKIP() << "the device has one sample per pixel";
+  const Picture picture = ClothPicture(16, 4.0f / 3);
+  const Image full = Offscreen(picture, 320, 240);
+  options_.samples = 1;
+  const Image draft = Offscreen(picture, 320, 240);
+  EXPECT_NE(draft.rgba, full.rgba);
+  EXPECT_LT(Compare(draft, full).mean, 2.3) << "which is just noticed";
+  for (const bool is_draft : {true, false, false, true, true, false}) {
+    EXPECT_TRUE(renderer.Draw(picture, {}, is_draft));
+    EXPECT_EQ(renderer.Capture().rgba, is_draft ? draft.rgba : full.rgba);
+  }
+  Resize(200, 100);
+  const Picture wide = ClothPicture(16, 2.0f);
+  EXPECT_TRUE(renderer.Draw(wide, {}, true));
+  EXPECT_EQ(renderer.Capture().rgba, Offscreen(wide, 200, 100).rgba);
+}
+
 TEST_F(WindowRendererTest, FollowsTheWindowsSize) {
   WindowRenderer renderer(window_, options_);
   const int sizes[][2] = {{320, 240}, {500, 200}, {64, 400}, {800, 600}, {320, 240}};

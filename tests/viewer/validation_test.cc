@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/offscreen_renderer.h"
+#include "support/sanitizers.h"
 #include "vk/buffer.h"
 #include "vk/device.h"
 #include "vk/instance.h"
@@ -26,7 +27,7 @@ DeviceOptions Validated() {
 TEST(ValidationTest, AnErrorIsHeard) {
   const DeviceOptions options = Validated();
   const vk::Instance instance(options, {});
-  const vk::Device device(instance.get(), VK_NULL_HANDLE, "");
+  const vk::Device device(instance.get(), VK_NULL_HANDLE, {});
   EXPECT_THAT(options.log->messages(), IsEmpty());
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -45,9 +46,10 @@ TEST(ValidationTest, WhatIsLeftOverIsHeard) {
   const vk::Instance instance(options, {});
   VkSemaphore semaphore = VK_NULL_HANDLE;
   {
-    const vk::Device device(instance.get(), VK_NULL_HANDLE, "");
+    const vk::Device device(instance.get(), VK_NULL_HANDLE, {});
     VkSemaphoreCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+    const test::LeakOnPurpose unheard;
     ASSERT_EQ(vkCreateSemaphore(device.get(), &info, nullptr, &semaphore), VK_SUCCESS);
     EXPECT_THAT(options.log->messages(), IsEmpty());
   }
@@ -57,7 +59,7 @@ TEST(ValidationTest, WhatIsLeftOverIsHeard) {
 TEST(ValidationTest, AnErrorInCommandsIsHeard) {
   const DeviceOptions options = Validated();
   const vk::Instance instance(options, {});
-  const vk::Device device(instance.get(), VK_NULL_HANDLE, "");
+  const vk::Device device(instance.get(), VK_NULL_HANDLE, {});
   const vk::Buffer buffer(device, 64, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, vk::kShared);
   // Copying into a buffer that was not made to be copied into.
   device.Run([&](VkCommandBuffer commands) {
@@ -70,7 +72,7 @@ TEST(ValidationTest, AnErrorInCommandsIsHeard) {
 TEST(ValidationTest, AMissingBarrierIsHeard) {
   const DeviceOptions options = Validated();
   const vk::Instance instance(options, {});
-  const vk::Device device(instance.get(), VK_NULL_HANDLE, "");
+  const vk::Device device(instance.get(), VK_NULL_HANDLE, {});
   const VkBufferUsageFlags both =
       VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   const vk::Buffer a(device, 64, both, vk::kShared);
@@ -88,7 +90,7 @@ TEST(ValidationTest, WithoutItNothingIsCollected) {
   options.validation = false;
   {
     const vk::Instance instance(options, {});
-    const vk::Device device(instance.get(), VK_NULL_HANDLE, "");
+    const vk::Device device(instance.get(), VK_NULL_HANDLE, {});
     device.WaitIdle();
   }
   EXPECT_TRUE(options.log->empty());

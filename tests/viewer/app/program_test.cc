@@ -108,6 +108,49 @@ TEST_F(ViewerProgramTest, ARecordedMotionIsDrawnAsTheSimulatedOne) {
   EXPECT_GT(green, 300);
 }
 
+// Millimetres with z up, as a motion capture writes them, make the picture that metres
+// with y up make.
+TEST_F(ViewerProgramTest, ATrajectoryIsReadInItsOwnUnits) {
+  if (!HasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  const Scene scene = LoadScene(scene_);
+  Trajectory trajectory = Simulator(scene).Simulate(8);
+  WriteTrajectory(folder_.File("m.csv"), TrajectoryFormat::kCsv, trajectory, scene);
+  for (Eigen::MatrixXd& x : trajectory.positions) {
+    const Eigen::MatrixXd as_y_up = x;
+    for (Eigen::Index r = 0; r < x.rows(); r += 3) {
+      x.row(r + 1) = -as_y_up.row(r + 2);
+      x.row(r + 2) = as_y_up.row(r + 1);
+    }
+    x *= 1000.0;
+  }
+  WriteTrajectory(folder_.File("mm.csv"), TrajectoryFormat::kCsv, trajectory, scene);
+  const std::string first = "--first_frame=7";
+  ASSERT_EQ(Offscreen({first, "--png=m.png", "--trajectory=m.csv"}).exit_code, 0);
+  const std::vector<std::string> units = {"--trajectory_scale=0.001",
+                                          "--trajectory_up=z"};
+  ASSERT_EQ(
+      Offscreen({first, "--png=mm.png", "--trajectory=mm.csv", units[0], units[1]})
+          .exit_code,
+      0);
+  const Image metres = ReadPng(folder_.File("m.png"));
+  // Rounding of the last digit moves no more than an edge's sample here and there.
+  EXPECT_LT(Difference(ReadPng(folder_.File("mm.png")), metres), 30);
+  ASSERT_EQ(
+      Offscreen({first, "--png=y.png", "--trajectory=mm.csv", units[0]}).exit_code, 0);
+  EXPECT_GT(Difference(ReadPng(folder_.File("y.png")), metres), 500);
+  // At twice the scene's rate the file's frame 6 is the scene's frame 3.
+  const std::string rate = "--trajectory_rate=" + std::to_string(2.0 / scene.delta);
+  const std::string motion = "--trajectory=m.csv", bare = "--nolegend";
+  ASSERT_EQ(Offscreen({"--first_frame=3", "--png=a.png", motion, bare, rate}).exit_code,
+            0);
+  ASSERT_EQ(Offscreen({"--first_frame=6", "--png=b.png", motion, bare}).exit_code, 0);
+  EXPECT_EQ(ReadPng(folder_.File("a.png")).rgba, ReadPng(folder_.File("b.png")).rgba);
+  ExpectRefused(Offscreen({"--trajectory=m.csv", "--trajectory_up=x"}),
+                "--trajectory_up");
+  ExpectRefused(Offscreen({"--trajectory=m.csv", "--trajectory_scale=-1"}),
+                "--trajectory_scale");
+}
+
 TEST_F(ViewerProgramTest, AFailingSimulationStopsWithItsReason) {
   if (!HasDevice()) GTEST_SKIP() << "there is no Vulkan device";
   Scene scene = LoadScene(scene_);

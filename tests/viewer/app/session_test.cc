@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
@@ -92,6 +93,33 @@ TEST_F(SessionTest, NothingChangesWhileNothingIsDone) {
   session_.Zoom(1);
   EXPECT_TRUE(session_.Update(2.0));
   EXPECT_FALSE(session_.Update(3.0));
+}
+
+// As that of a minimised window on some systems.
+TEST_F(SessionTest, APictureWithoutPixelsIsMadeAllTheSame) {
+  const Picture picture = session_.MakePicture(0, 0, 306);
+  ASSERT_EQ(picture.surfaces.size(), 1);
+  for (int k = 0; k < 16; ++k) {
+    EXPECT_TRUE(std::isfinite(picture.camera.projection[k / 4][k % 4])) << k;
+    EXPECT_TRUE(std::isfinite(picture.camera.view[k / 4][k % 4])) << k;
+  }
+}
+
+TEST_F(SessionTest, SaysWhatTheColoursLack) {
+  Press(GLFW_KEY_6);
+  Picture picture = session_.MakePicture(64, 48);
+  EXPECT_NE(std::string(State()["missing"]).find("--target"), std::string::npos);
+  EXPECT_EQ(picture.surfaces[0].colors[0], kUnknownColor);
+  EXPECT_FALSE(session_.maker().scale());  // which would be of nothing
+  Press(GLFW_KEY_7);
+  picture = session_.MakePicture(64, 48);
+  EXPECT_NE(std::string(State()["missing"]).find("--report"), std::string::npos);
+  EXPECT_EQ(picture.surfaces[0].colors[0], kUnknownColor);
+  Press(GLFW_KEY_4);
+  picture = session_.MakePicture(64, 48);
+  EXPECT_EQ(State()["missing"], "");
+  EXPECT_NE(picture.surfaces[0].colors[0], kUnknownColor);
+  EXPECT_TRUE(session_.maker().scale());
 }
 
 TEST_F(SessionTest, SavesTheSceneAsItIsTurned) {

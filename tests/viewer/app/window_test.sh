@@ -59,6 +59,56 @@ has_line() { [[ -s "$state" ]]; }
 has_file() { compgen -G "$1" > /dev/null; }
 key() { xdotool key --window "$window" "$1"; }
 
+until_is() {  # NAME VALUE
+  local k
+  for ((k = 0; k < 100; ++k)); do
+    if is "$1" "$2"; then return; fi
+    sleep 0.1
+  done
+}
+
+# press_widget NAME [RIGHT]: as a mouse does, so many pixels right of its middle. A
+# panel sees what is done between one picture and the next, so each step waits for one.
+press_widget() {
+  local place x y
+  place="$(field "at_$1")"
+  IFS=, read -r x y <<< "${place//[][]/}"
+  x=$((x + ${2:-0}))
+  move_to "$x" "$y"
+  xdotool mousedown 1; until_is button_down true
+  xdotool mouseup 1; until_is button_down false
+}
+
+move_to() {  # X Y
+  xdotool mousemove --window "$window" "$1" "$2"
+  until_is cursor "[$1.0,$2.0]"
+}
+
+drag() {  # BUTTON RIGHT DOWN
+  xdotool mousedown "$1"; until_is button_down true
+  xdotool mousemove_relative -- "$2" "$3"
+  xdotool mouseup "$1"; until_is button_down false
+}
+
+# set_wm_state NUMBER: what a window manager, which is not there, says of a window:
+# 1 normal, 3 iconified.
+set_wm_state() {
+  python3 - "$window" "$1" << 'END'
+import ctypes, sys
+x11 = ctypes.CDLL("libX11.so.6")
+x11.XOpenDisplay.restype = ctypes.c_void_p
+display = ctypes.c_void_p(x11.XOpenDisplay(None))
+atom = x11.XInternAtom(display, b"WM_STATE", 0)
+value = (ctypes.c_long * 2)(int(sys.argv[2]), 0)
+x11.XChangeProperty(display, int(sys.argv[1]), atom, atom, 32, 0, value, 2)
+x11.XCloseDisplay(display)
+END
+}
+iconify() { set_wm_state 3 && xdotool windowunmap "$window"; }
+deiconify() { xdotool windowmap "$window" && set_wm_state 1; }
+num_states() { wc -l < "$state"; }
+has_more_states() { [[ "$(num_states)" -gt "$1" ]]; }
+
 # The server takes the first free number and says which.
 Xvfb -displayfd 3 -screen 0 1280x1024x24 -nolisten tcp 3> "$scratch/display" \
     2> /dev/null &
@@ -96,27 +146,52 @@ for color in plain stiffness mass stretch speed distance; do
   wait_for "$number colours by $color" is color "\"$color\""
   number=$((number + 1))
 done
+wait_for "without a target it says why distances are grey" is_not missing '""'
+key 7
+wait_for "without a report it says so of deviations" is_not missing '""'
+key 1
+wait_for "and no more of what has no colours" is missing '""'
+
+yaw="$(field yaw)"
+press_widget play
+wait_for "the button plays" is paused false
+wait_for "and the cloth moves" above frame 10
+press_widget play
+wait_for "the button pauses" is paused true
+here="$(field frame)"
+press_widget frame -60
+wait_for "the time line goes back" below frame "$here"
+here="$(field frame)"
+press_widget step
+wait_for "the button > goes a frame on" above frame "$here"
+press_widget color_speed
+wait_for "a button chooses colours" is color '"speed"'
+press_widget stiffness 50
+wait_for "a slider makes the cloth stiffer" above stiffness 1.5
+press_widget stiffness -50
+wait_for "or softer" below stiffness 0.7
+press_widget save_scene
+wait_for "a button writes the scene" has_file "$scratch/side_tuned.txt"
+press_widget as_in_the_file
+wait_for "a button takes all that back" is stiffness 1.0
+wait_for "nothing of this turned the camera" is yaw "$yaw"
+key Home; wait_for "Home restarts" is frame 0
 
 yaw="$(field yaw)" pitch="$(field pitch)" distance="$(field distance)"
 target="$(field target)"
-xdotool mousemove --window "$window" 600 400
-sleep 0.2
-xdotool mousedown 1; sleep 0.1
-xdotool mousemove_relative -- 80 30; sleep 0.2
-xdotool mouseup 1
+move_to 600 400
+drag 1 80 30
 wait_for "a left drag to the right orbits" below yaw "$yaw"
 wait_for "and down raises the camera" above pitch "$pitch"
 wait_for "but does not pan" is target "$target"
 orbited="$(field yaw)"
-xdotool mousedown 3; sleep 0.1
-xdotool mousemove_relative -- 40 20; sleep 0.2
-xdotool mouseup 3
+drag 3 40 20
 wait_for "a right drag pans" is_not target "$target"
 wait_for "but does not orbit" is yaw "$orbited"
 panned="$(field target)"
-xdotool keydown shift; xdotool mousedown 1; sleep 0.1
-xdotool mousemove_relative -- -30 10; sleep 0.2
-xdotool mouseup 1; xdotool keyup shift
+xdotool keydown shift
+drag 1 -30 10
+xdotool keyup shift
 wait_for "so does a drag with Shift" is_not target "$panned"
 wait_for "which does not orbit either" is yaw "$orbited"
 xdotool click 4; wait_for "the wheel comes closer" below distance "$distance"
@@ -136,6 +211,22 @@ wait_for "the picture follows the window's size" is size "[700,500]"
 xdotool windowunmap "$window"; sleep 0.5; xdotool windowmap "$window"; sleep 0.5
 xdotool windowsize "$window" 640 480
 wait_for "it goes on after it was hidden" is size "[640,480]"
+if command -v python3 > /dev/null; then
+  # Unmapping took the focus away, as no window manager is there to give it back.
+  xdotool windowfocus "$window" 2> /dev/null
+  key space; wait_for "it plays" is paused false
+  iconify; sleep 1  # longer than a picture takes
+  before="$(num_states)"
+  sleep 1
+  if has_more_states "$before"; then
+    echo "FAILED it draws nothing while it is minimised"
+    failures=$((failures + 1))
+  fi
+  deiconify
+  wait_for "it goes on after it was minimised" has_more_states "$before"
+  xdotool windowfocus "$window" 2> /dev/null
+  key space; wait_for "it pauses" is paused true
+fi
 key Escape
 wait "$viewer_pid"
 code=$?

@@ -8,6 +8,7 @@
 
 #include "dpe/engine/cloth_builder.h"
 #include "dpe/engine/simulator.h"
+#include "support/sanitizers.h"
 #include "support/test_scenes.h"
 
 namespace dpe::viewer {
@@ -96,7 +97,11 @@ TEST(LiveSourceTest, AHeavySceneRunsSlowerAndNeverHoldsTheOtherSide) {
   preset.rows = preset.cols = 32;
   Scene scene = MakePresetScene(ScenePreset::kSide, preset);
   scene.delta = 0.001;
+#ifdef DPE_TEST_SANITIZED
+  scene.steps_per_frame = 4;  // each of which takes as long as ten
+#else
   scene.steps_per_frame = 40;
+#endif
   LiveSource source({scene}, {});
   LiveControls controls = ControlsOf(scene);
   controls.paused = false;

@@ -71,10 +71,42 @@ TEST(PictureMakerTest, ShowsTheSceneAsASurfaceWithItsPins) {
   ASSERT_EQ(picture.points.size(), 1);
   EXPECT_EQ(picture.points[0].positions.size(), 4);  // the last row
   EXPECT_FALSE(maker.scale());
+  EXPECT_GT(picture.surfaces[0].edge_width, 0.0f);
+  EXPECT_EQ(picture.surfaces[0].topology->corners.size(), 16);
+  ASSERT_EQ(picture.lines.size(), 1);
+  EXPECT_EQ(picture.lines[0].positions.size(), 2 * 12);  // the border alone
+  EXPECT_FALSE(picture.surfaces[0].under_lines);
+  ViewOptions springs = ClothAlone();
+  springs.springs = true;
+  EXPECT_TRUE(maker.Make(player, springs).surfaces[0].under_lines);
+  ViewOptions edges = ClothAlone();
+  edges.surface = false;  // then they are lines
+  EXPECT_TRUE(maker.Make(player, edges).surfaces.empty());
+  ASSERT_EQ(maker.Make(player, edges).lines.size(), 1);
+  EXPECT_EQ(maker.Make(player, edges).lines[0].positions.size(), 2 * 33);
+  ViewOptions plain = ClothAlone();
+  plain.wireframe = false;
+  EXPECT_EQ(maker.Make(player, plain).surfaces[0].edge_width, 0.0f);
   ViewOptions nothing = ClothAlone();
   nothing.surface = nothing.wireframe = nothing.fixed_vertices = false;
   EXPECT_TRUE(maker.Make(player, nothing).surfaces.empty());
   EXPECT_TRUE(maker.Make(player, nothing).lines.empty());
+}
+
+// The ground's lines are drawn along a plane.
+TEST(PictureMakerTest, CollidersAreUnderLines) {
+  PlayerSources sources;
+  sources.scene = test::MakeDerivativeScene("side", 4);
+  Collider plane;
+  plane.type = ColliderType::kPlane;
+  plane.position = {0.0, -3.0, 0.0};
+  sources.scene.colliders = {plane};
+  Player player(std::move(sources));
+  PictureMaker maker(player.scene(), nullptr, {});
+  const Picture picture = maker.Make(player, ViewOptions());
+  ASSERT_EQ(picture.surfaces.size(), 2);
+  EXPECT_TRUE(picture.surfaces[0].under_lines);
+  EXPECT_FALSE(picture.surfaces[1].under_lines);
 }
 
 TEST(PictureMakerTest, ShowsTheEstimateAsAGreenWireframeOverTheTarget) {
@@ -94,9 +126,10 @@ TEST(PictureMakerTest, ShowsTheEstimateAsAGreenWireframeOverTheTarget) {
   view.color = ColorMode::kDistance;
   const Picture picture = maker.Make(player, view);
   ASSERT_EQ(picture.surfaces.size(), 1);
+  EXPECT_TRUE(picture.surfaces[0].under_lines);
   const Eigen::VectorXd seen = target.positions[0].col(5);
   EXPECT_EQ(picture.surfaces[0].positions[3], ToPoint(seen.segment<3>(9)));
-  ASSERT_EQ(picture.lines.size(), 2);
+  ASSERT_EQ(picture.lines.size(), 2);  // the target's border, and the estimate
   const Lines& estimate = picture.lines[1];
   EXPECT_GT(estimate.colors[0].y, 3.0f * estimate.colors[0].x);
   const Eigen::VectorXd& x = player.motion().positions[0];

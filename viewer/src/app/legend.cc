@@ -47,6 +47,16 @@ void DrawScale(const ColorScale& scale) {
   }
 }
 
+// A line of text at the right, with its shade from `top` on.
+void DrawLine(const std::string& text, float top) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float x = ImGui::GetIO().DisplaySize.x - size.x - kMargin;
+  ImDrawList* list = ImGui::GetBackgroundDrawList();
+  list->AddRectFilled(ImVec2(x - 8.0f, top),
+                      ImVec2(x + size.x + 8.0f, top + 8.0f + size.y), kShade);
+  DrawText(list, x, top + 4.0f, text);
+}
+
 std::string Caption(const Session& session) {
   const Player& player = session.player();
   char text[128];
@@ -65,13 +75,10 @@ std::string Caption(const Session& session) {
 
 void DrawLegend(const Session& session) {
   if (session.maker().scale()) DrawScale(*session.maker().scale());
-  const std::string caption = Caption(session);
-  const ImVec2 size = ImGui::CalcTextSize(caption.c_str());
-  const float x = ImGui::GetIO().DisplaySize.x - size.x - kMargin;
-  ImDrawList* list = ImGui::GetBackgroundDrawList();
-  list->AddRectFilled(ImVec2(x - 8.0f, 8.0f), ImVec2(x + size.x + 8.0f, 16.0f + size.y),
-                      kShade);
-  DrawText(list, x, 12.0f, caption);
+  DrawLine(Caption(session), 8.0f);
+  if (session.maker().missing().empty()) return;
+  const float height = ImGui::GetTextLineHeight() + 8.0f;
+  DrawLine(session.maker().missing(), ImGui::GetIO().DisplaySize.y - kMargin - height);
 }
 
 }  // namespace dpe::viewer

@@ -12,17 +12,26 @@ namespace {
 constexpr float kWidth = static_cast<float>(kPanelWidth) - 16.0f;
 constexpr size_t kMaxPlotPoints = 500;
 
-void DrawPlayback(Session* session) {
+// Notes where the widget is that was drawn last.
+void Note(const std::string& name, PanelState* state) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  state->widgets[name] = {static_cast<int>(0.5f * (low.x + high.x)),
+                          static_cast<int>(0.5f * (low.y + high.y))};
+}
+
+void DrawPlayback(PanelState* state, Session* session) {
   Player& player = session->player();
   if (ImGui::Button(player.paused() ? "Play" : "Pause", ImVec2(60, 0))) {
     session->Do(Action::kTogglePause);
   }
+  Note("play", state);
   ImGui::SameLine();
   if (ImGui::Button("|<")) session->Do(Action::kRestart);
   ImGui::SameLine();
   if (ImGui::Button("<")) session->Do(Action::kStepBack);
   ImGui::SameLine();
   if (ImGui::Button(">")) session->Do(Action::kStepForward);
+  Note("step", state);
   ImGui::SameLine();
   ImGui::Text("%.3f s", player.time());
   int frame = player.frame();
@@ -31,6 +40,7 @@ void DrawPlayback(Session* session) {
                        std::max(player.last_frame(), player.first_frame() + 1))) {
     player.Seek(frame);
   }
+  Note("frame", state);
   auto speed = static_cast<float>(player.speed());
   ImGui::SetNextItemWidth(-50.0f);
   if (ImGui::SliderFloat("speed", &speed, 0.05f, 4.0f, "%.2f",
@@ -60,8 +70,9 @@ void DrawRates(const PanelState& state, const Player& player) {
   }
 }
 
-void DrawColors(Session* session) {
+void DrawColors(PanelState* state, Session* session) {
   ImGui::Text("colour by");
+  ImGui::PushID("colour by");  // there is a slider "speed" too
   for (int m = 0; m < kNumColorModes; ++m) {
     const auto mode = static_cast<ColorMode>(m);
     if (mode == ColorMode::kDeviation && !session->maker().has_deviations()) continue;
@@ -70,6 +81,11 @@ void DrawColors(Session* session) {
                            session->view().color == mode)) {
       session->SetColor(mode);
     }
+    Note("color_" + ColorModeName(mode), state);
+  }
+  ImGui::PopID();
+  if (!session->maker().missing().empty()) {
+    ImGui::TextWrapped("%s", session->maker().missing().c_str());
   }
 }
 
@@ -108,6 +124,7 @@ void DrawParameters(PanelState* state, Session* session) {
     if (tuning.objects.size() > 1) ImGui::Text("object %d", static_cast<int>(o));
     ObjectTuning& values = tuning.objects[o];
     turned |= Slider("stiffness", 0.01, 100.0, "x %.3g", &values.stiffness_factor);
+    if (o == 0) Note("stiffness", state);
     turned |= Slider("mass", 0.01, 100.0, "x %.3g", &values.mass_factor);
     turned |= Slider("damping", 0.0, 10.0, "%.3g", &values.damping);
     turned |= Slider("drag", 0.0, 10.0, "%.3g", &values.drag_coefficient);
@@ -124,11 +141,13 @@ void DrawParameters(PanelState* state, Session* session) {
     tuning = TuningOf(player.scene());
     turned = true;
   }
+  Note("as_in_the_file", state);
   if (turned) player.SetTuning(tuning);
   ImGui::SetNextItemWidth(-90.0f);
   ImGui::InputText("##path", state->save_path, sizeof(state->save_path));
   ImGui::SameLine();
   if (ImGui::Button("Save scene")) session->SaveScene(state->save_path);
+  Note("save_scene", state);
 }
 
 // The error so far, thinned out; what is not known repeats what was before.
@@ -152,16 +171,17 @@ void DrawErrors(const Player& player) {
 
 void DrawPanel(PanelState* state, Session* session) {
   const Player& player = session->player();
+  state->widgets.clear();
   ImGui::SetNextWindowPos(ImVec2(8, 8), ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize(ImVec2(kWidth, 0.0f), ImGuiCond_Always);
   ImGui::Begin("dpe_viewer", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
   if (!player.scene().title.empty()) {
     ImGui::TextWrapped("%s", player.scene().title.c_str());
   }
-  DrawPlayback(session);
+  DrawPlayback(state, session);
   DrawRates(*state, player);
   ImGui::Separator();
-  DrawColors(session);
+  DrawColors(state, session);
   DrawShown(&session->view());
   if (player.tunes_scene() &&
       ImGui::CollapsingHeader("parameters", ImGuiTreeNodeFlags_DefaultOpen)) {

@@ -2,6 +2,8 @@
 #ifndef DPE_VIEWER_APP_PANEL_H_
 #define DPE_VIEWER_APP_PANEL_H_
 
+#include <array>
+#include <map>
 #include <string>
 
 #include "app/session.h"
@@ -11,10 +13,14 @@ namespace dpe::viewer {
 // Pixels that the panel covers on the left.
 constexpr int kPanelWidth = 306;
 
+// Where widgets are: the middle of each, in pixels of the window.
+using WidgetPlaces = std::map<std::string, std::array<int, 2>>;
+
 struct PanelState {
   double pictures_per_second = 0.0;  // 0: not said
   std::string device;
   char save_path[512] = "tuned_scene.txt";
+  WidgetPlaces widgets;  // out: those of the panel as it was drawn last
 };
 
 // Within ImGui's frame.

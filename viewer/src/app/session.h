@@ -59,6 +59,7 @@ class Session {
 
   bool wants_quit() const { return wants_quit_; }
   bool shows_help() const { return shows_help_; }
+  bool wants_png() const { return wants_png_; }
   // Once per request.
   bool TakePngRequest();
   const std::string& message() const { return message_; }

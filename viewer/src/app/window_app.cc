@@ -10,6 +10,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "app/draft_policy.h"
 #include "app/key_bindings.h"
 #include "app/legend.h"
 #include "app/offscreen_app.h"
@@ -27,6 +28,7 @@ namespace {
 constexpr int kDrawsAfterEvent = 3;
 constexpr double kIdleSeconds = 1.0;  // nothing is missed: events end the wait
 constexpr double kHiddenSeconds = 0.25;
+constexpr double kMotionSeconds = 0.25;  // after an event: more may come
 
 // Taken to wake the window up, and when it comes and goes: at no other time.
 std::mutex running_mutex;
@@ -95,6 +97,8 @@ class WindowApp {
     while (!session_->wants_quit() && glfwWindowShouldClose(window()) == GLFW_FALSE) {
       WaitForEvents();
       if (session_->Update(glfwGetTime())) draws_left_ = std::max(draws_left_, 1);
+      // A draft does not stay.
+      if (state_.is_draft && !IsInMotion()) draws_left_ = std::max(draws_left_, 1);
       // Of a hidden window nothing says when it can be drawn again but a try.
       if (session_->IsMoving() || !is_visible_) draws_left_ = std::max(draws_left_, 1);
       if (draws_left_ == 0) continue;
@@ -111,7 +115,8 @@ class WindowApp {
     if (!is_visible_) {
       glfwWaitEventsTimeout(kHiddenSeconds);
     } else if (draws_left_ == 0 && !session_->IsMoving()) {
-      glfwWaitEventsTimeout(kIdleSeconds);
+      // What a hand moves stands still when no more events come.
+      glfwWaitEventsTimeout(state_.is_draft ? kMotionSeconds : kIdleSeconds);
     } else {
       const double left = last_draw_ + 1.0 / RefreshRate() - glfwGetTime();
       if (left > 1e-3) {
@@ -120,6 +125,11 @@ class WindowApp {
         glfwPollEvents();
       }
     }
+  }
+
+  // Things move by themselves, or a person moves them.
+  bool IsInMotion() const {
+    return session_->IsMoving() || glfwGetTime() < last_event_ + kMotionSeconds;
   }
 
   static double RefreshRate() {
@@ -131,15 +141,23 @@ class WindowApp {
   void Draw() {
     // An event of the simulation may come long before the next picture is due.
     const double now = glfwGetTime();
+    is_visible_ = !IsMinimised();
+    if (!is_visible_) return;
     glfwGetFramebufferSize(window(), &state_.width, &state_.height);
     const Picture picture =
         session_->MakePicture(state_.width, state_.height, kPanelWidth);
-    is_visible_ = renderer_->Draw(picture, [this] {
-      DrawLegend(*session_);
-      DrawPanel(&panel_, session_);
-      DrawHelp(*session_);
-    });
+    state_.is_draft = drafts_.Next(IsInMotion()) && !session_->wants_png() &&
+                      renderer_->samples() > 1;
+    is_visible_ = renderer_->Draw(
+        picture,
+        [this] {
+          DrawLegend(*session_);
+          DrawPanel(&panel_, session_);
+          DrawHelp(*session_);
+        },
+        state_.is_draft);
     if (!is_visible_) return;
+    drafts_.Took(glfwGetTime() - now);
     ++state_.pictures;
     if (last_draw_ > 0.0 && session_->IsMoving()) {
       const double rate = 1.0 / std::max(now - last_draw_, 1e-6);
@@ -148,8 +166,17 @@ class WindowApp {
     }
     last_draw_ = now;
     panel_.pictures_per_second = state_.pictures_per_second;
+    state_.widgets = panel_.widgets;
     if (session_->TakePngRequest()) SavePng();
     WriteState();
+  }
+
+  // Some systems say it by a size of 0 by 0; X11 leaves the size as it is.
+  bool IsMinimised() {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window(), &width, &height);
+    return width == 0 || height == 0 ||
+           glfwGetWindowAttrib(window(), GLFW_ICONIFIED) == GLFW_TRUE;
   }
 
   void SavePng() {
@@ -199,7 +226,10 @@ class WindowApp {
     return static_cast<WindowApp*>(glfwGetWindowUserPointer(window));
   }
 
-  void OnEvent() { draws_left_ = kDrawsAfterEvent; }
+  void OnEvent() {
+    draws_left_ = kDrawsAfterEvent;
+    last_event_ = glfwGetTime();
+  }
 
   // Callbacks come after the renderer has made ImGui's context, or before it; then
   // nothing captures anything.
@@ -222,7 +252,8 @@ class WindowApp {
 
   void OnButton(int button, int action, int mods) {
     OnEvent();
-    drags_ = action == GLFW_PRESS && !UiTakesMouse();
+    state_.button_down = action == GLFW_PRESS;
+    drags_ = state_.button_down && !UiTakesMouse();
     pans_ = button == GLFW_MOUSE_BUTTON_RIGHT || button == GLFW_MOUSE_BUTTON_MIDDLE ||
             (mods & GLFW_MOD_SHIFT) != 0;
   }
@@ -258,7 +289,8 @@ class WindowApp {
   std::string last_key_;
   int draws_left_ = kDrawsAfterEvent;
   bool is_visible_ = true, drags_ = false, pans_ = false;
-  double last_draw_ = 0.0;
+  double last_draw_ = 0.0, last_event_ = 0.0;
+  DraftPolicy drafts_;
 };
 
 }  // namespace

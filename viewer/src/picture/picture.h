@@ -18,6 +18,9 @@ namespace dpe::viewer {
 // uploads indices only when it is another one.
 struct Topology {
   std::vector<std::uint32_t> triangles;  // triples, counter-clockwise seen from outside
+  // 0, 1 or 2 per vertex, all three of them in each triangle, which is how the renderer
+  // knows what is near an edge. Empty: edges cannot be drawn. See ColorCorners.
+  std::vector<std::uint32_t> corners;
 };
 
 // A shaded surface, seen from both sides.
@@ -26,6 +29,14 @@ struct Surface {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;  // unit length, one per vertex
   std::vector<glm::vec4> colors;   // linear RGBA, one per vertex
+  // Edges of triangles, as a part of the surface: they cost next to nothing, and fade
+  // where they lie so close that nothing else would be seen.
+  glm::vec4 edge_color{0.0f, 0.0f, 0.0f, 1.0f};  // linear RGBA
+  float edge_width = 0.0f;                       // pixels; 0: none
+  // Whether lines of the picture lie along the surface and shall be seen: it is pushed
+  // back a little then, so much where it is steep that what is behind may show at
+  // folds.
+  bool under_lines = true;
 };
 
 // Line segments: vertices 2i and 2i + 1 are joined.

@@ -29,7 +29,8 @@ const IndexCache::Entry* IndexCache::Find(const Topology& topology) const {
 VkDeviceSize IndexCache::BytesToUpload(const Topology& topology) const {
   return Find(topology) != nullptr
              ? 0
-             : FrameArena::Padded(topology.triangles.size() * sizeof(std::uint32_t));
+             : FrameArena::Padded(CornersOffset(topology)) +
+                   FrameArena::Padded(topology.corners.size() * sizeof(std::uint32_t));
 }
 
 IndexCache::Indices IndexCache::Get(const vk::Device& device, VkCommandBuffer commands,
@@ -41,16 +42,21 @@ IndexCache::Indices IndexCache::Get(const vk::Device& device, VkCommandBuffer co
   }
   const std::size_t vertices = VerticesNeeded(*topology);
   RequireVertices(surface, vertices);
-  const VkDeviceSize bytes = topology->triangles.size() * sizeof(std::uint32_t);
-  auto indices = std::make_shared<vk::Buffer>(
-      device, bytes,
-      VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-      VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-  const VkBufferCopy region{arena->Put(topology->triangles), 0, bytes};
-  vkCmdCopyBuffer(commands, arena->buffer(), indices->get(), 1, &region);
+  const VkDeviceSize bytes = CornersOffset(*topology);
+  const VkDeviceSize corner_bytes = topology->corners.size() * sizeof(std::uint32_t);
+  auto indices = std::make_shared<vk::Buffer>(device, bytes + corner_bytes,
+                                              VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                                                  VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                                                  VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                              VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+  const VkBufferCopy regions[] = {{arena->Put(topology->triangles), 0, bytes},
+                                  {arena->Put(topology->corners), bytes, corner_bytes}};
+  vkCmdCopyBuffer(commands, arena->buffer(), indices->get(), corner_bytes > 0 ? 2 : 1,
+                  regions);
   VkMemoryBarrier written{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
   written.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-  written.dstAccessMask = VK_ACCESS_INDEX_READ_BIT;
+  written.dstAccessMask =
+      VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT;
   vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
                        VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, 0, 1, &written, 0, nullptr,
                        0, nullptr);

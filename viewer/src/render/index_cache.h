@@ -1,4 +1,4 @@
-// Indices of triangles in the device's own memory.
+// Topologies in the device's own memory: indices of triangles and corners of vertices.
 #ifndef DPE_VIEWER_RENDER_INDEX_CACHE_H_
 #define DPE_VIEWER_RENDER_INDEX_CACHE_H_
 
@@ -14,7 +14,11 @@ namespace dpe::viewer {
 // Uploads each topology once; forgets it when nobody else holds it any more.
 class IndexCache {
  public:
+  // The indices, and then the corners.
   using Indices = std::shared_ptr<const vk::Buffer>;
+  static VkDeviceSize CornersOffset(const Topology& topology) {
+    return topology.triangles.size() * sizeof(std::uint32_t);
+  }
 
   // Bytes that Get will put into the arena: 0 for what is already there.
   VkDeviceSize BytesToUpload(const Topology& topology) const;

@@ -21,8 +21,8 @@ VkExtent2D Extent(int width, int height) {
 struct OffscreenRenderer::State {
   State(const DeviceOptions& options, VkExtent2D extent)
       : instance(options, {}),
-        device(instance.get(), VK_NULL_HANDLE, options.device),
-        passes(device, {}),
+        device(instance.get(), VK_NULL_HANDLE, options),
+        passes(device, {}, device.samples()),
         target(device, passes, extent),
         drawer(device, passes),
         slot(device),

@@ -32,7 +32,7 @@ class OffscreenRenderer {
 
   // Of the device that draws.
   const DeviceDescription& device() const;
-  // Samples per pixel: 4 where the device can, else 1.
+  // Per pixel, see DeviceOptions.
   int samples() const;
 
  private:

@@ -23,6 +23,9 @@ void CheckPicture(const Picture& picture) {
             "a surface needs one normal per vertex");
     Require(surface.colors.size() == surface.positions.size(),
             "a surface needs one color per vertex");
+    Require(surface.edge_width <= 0.0f || IsEmpty(surface) ||
+                surface.topology->corners.size() == surface.positions.size(),
+            "a surface with edges needs one corner per vertex");
   }
   for (const Lines& lines : picture.lines) {
     Require(lines.positions.size() % 2 == 0, "lines need two vertices per segment");

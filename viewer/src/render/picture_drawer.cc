@@ -66,11 +66,21 @@ class Painter {
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
       const Upload::Part& part = upload_.surfaces[i];
       if (!part.indices) continue;
-      Begin(pipelines_.surface(), part, 3);
+      const Topology& topology = *surfaces[i].topology;
+      const bool with_edges = surfaces[i].edge_width > 0.0f;
+      constants_.pixels = surfaces[i].edge_width;
+      constants_.color = surfaces[i].edge_color;
+      Begin(pipelines_.surface(with_edges), part, 3);
+      // Lines along the surface lie in front of it, whatever the slope.
+      vkCmdSetDepthBias(commands_, 0.0f, 0.0f, surfaces[i].under_lines ? 1.5f : 0.0f);
+      if (with_edges) {
+        const VkBuffer buffer = part.indices->get();
+        const VkDeviceSize offset = IndexCache::CornersOffset(topology);
+        vkCmdBindVertexBuffers(commands_, 3, 1, &buffer, &offset);
+      }
       vkCmdBindIndexBuffer(commands_, part.indices->get(), 0, VK_INDEX_TYPE_UINT32);
-      vkCmdDrawIndexed(
-          commands_, static_cast<std::uint32_t>(surfaces[i].topology->triangles.size()),
-          1, 0, 0, 0);
+      vkCmdDrawIndexed(commands_, static_cast<std::uint32_t>(topology.triangles.size()),
+                       1, 0, 0, 0);
     }
   }
 

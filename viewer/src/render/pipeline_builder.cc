@@ -38,7 +38,7 @@ VkPipelineVertexInputStateCreateInfo VertexInput(
   return info;
 }
 
-VkPipelineRasterizationStateCreateInfo Rasterization(float depth_bias_slope) {
+VkPipelineRasterizationStateCreateInfo Rasterization(bool depth_bias) {
   VkPipelineRasterizationStateCreateInfo info{
       VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
   info.polygonMode = VK_POLYGON_MODE_FILL;
@@ -46,8 +46,7 @@ VkPipelineRasterizationStateCreateInfo Rasterization(float depth_bias_slope) {
   // Camera::projection points y down as Vulkan's framebuffers do, so that what is
   // counter-clockwise to the eye is so to Vulkan.
   info.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
-  info.depthBiasEnable = depth_bias_slope != 0.0f;
-  info.depthBiasSlopeFactor = depth_bias_slope;
+  info.depthBiasEnable = depth_bias;
   info.lineWidth = 1.0f;
   return info;
 }
@@ -94,7 +93,7 @@ vk::PipelineHandle MakePipeline(const vk::Device& device, const RenderPasses& pa
       VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
   viewport.viewportCount = 1;
   viewport.scissorCount = 1;
-  const auto rasterization = Rasterization(description.depth_bias_slope);
+  const auto rasterization = Rasterization(description.depth_bias);
   VkPipelineMultisampleStateCreateInfo multisample{
       VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
   multisample.rasterizationSamples = passes.samples();
@@ -104,11 +103,11 @@ vk::PipelineHandle MakePipeline(const vk::Device& device, const RenderPasses& pa
       VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
   blending.attachmentCount = 1;
   blending.pAttachments = &blend;
-  const VkDynamicState dynamic_states[] = {VK_DYNAMIC_STATE_VIEWPORT,
-                                           VK_DYNAMIC_STATE_SCISSOR};
+  const VkDynamicState dynamic_states[] = {
+      VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_DEPTH_BIAS};
   VkPipelineDynamicStateCreateInfo dynamic{
       VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-  dynamic.dynamicStateCount = 2;
+  dynamic.dynamicStateCount = description.depth_bias ? 3 : 2;
   dynamic.pDynamicStates = dynamic_states;
 
   VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};

@@ -31,8 +31,8 @@ struct PipelineDescription {
   std::vector<VkVertexInputBindingDescription> bindings;
   std::vector<VkVertexInputAttributeDescription> attributes;
   VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
-  bool depth_test = true;         // and write
-  float depth_bias_slope = 0.0f;  // pushes back, in depths per pixel
+  bool depth_test = true;   // and write
+  bool depth_bias = false;  // set while drawing
 };
 
 // For the scene's pass; viewport and scissor are set while drawing. Both sides of

@@ -7,6 +7,8 @@
 #include "shaders/line_vert.h"
 #include "shaders/point_frag.h"
 #include "shaders/point_vert.h"
+#include "shaders/surface_edges_frag.h"
+#include "shaders/surface_edges_vert.h"
 #include "shaders/surface_frag.h"
 #include "shaders/surface_vert.h"
 #include "vk/check.h"
@@ -16,6 +18,7 @@ namespace {
 
 constexpr VkFormat kVec3 = VK_FORMAT_R32G32B32_SFLOAT;
 constexpr VkFormat kVec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kUint = VK_FORMAT_R32_UINT;
 constexpr std::uint32_t kVec3Size = sizeof(glm::vec3);
 constexpr std::uint32_t kVec4Size = sizeof(glm::vec4);
 
@@ -32,17 +35,23 @@ vk::PipelineLayoutHandle MakeLayout(const vk::Device& device) {
   return {device.get(), layout};
 }
 
-PipelineDescription Surface() {
+PipelineDescription Surface(bool with_edges) {
   PipelineDescription description;
-  description.vertex_shader = surface_vert;
-  description.fragment_shader = surface_frag;
+  description.vertex_shader =
+      with_edges ? ShaderCode(surface_edges_vert) : ShaderCode(surface_vert);
+  description.fragment_shader =
+      with_edges ? ShaderCode(surface_edges_frag) : ShaderCode(surface_frag);
   description.bindings = {{0, kVec3Size, VK_VERTEX_INPUT_RATE_VERTEX},
                           {1, kVec3Size, VK_VERTEX_INPUT_RATE_VERTEX},
                           {2, kVec4Size, VK_VERTEX_INPUT_RATE_VERTEX}};
   description.attributes = {{0, 0, kVec3, 0}, {1, 1, kVec3, 0}, {2, 2, kVec4, 0}};
+  if (with_edges) {
+    description.bindings.push_back(
+        {3, sizeof(std::uint32_t), VK_VERTEX_INPUT_RATE_VERTEX});
+    description.attributes.push_back({3, 3, kUint, 0});
+  }
   description.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-  // Lines along the surface lie in front of it, whatever the slope.
-  description.depth_bias_slope = 1.5f;
+  description.depth_bias = true;
   return description;
 }
 
@@ -73,7 +82,8 @@ PipelineDescription Point() {
 
 Pipelines::Pipelines(const vk::Device& device, const RenderPasses& passes)
     : layout_(MakeLayout(device)),
-      surface_(MakePipeline(device, passes, layout_.get(), Surface())),
+      surface_(MakePipeline(device, passes, layout_.get(), Surface(false))),
+      surface_with_edges_(MakePipeline(device, passes, layout_.get(), Surface(true))),
       line_(MakePipeline(device, passes, layout_.get(), Line(false))),
       line_on_top_(MakePipeline(device, passes, layout_.get(), Line(true))),
       point_(MakePipeline(device, passes, layout_.get(), Point())) {}

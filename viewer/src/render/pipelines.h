@@ -25,9 +25,9 @@ struct SceneConstants {
   glm::vec3 eye;
   float clip_w_per_z;
   glm::vec2 viewport;    // pixels
-  float pixels;          // width of lines, size of points
+  float pixels;          // width of lines and edges, size of points
   float vertical_scale;  // clip y per metre upwards, without its sign
-  glm::vec4 color;       // of points
+  glm::vec4 color;       // of points and edges
 };
 static_assert(sizeof(SceneConstants) == 128);
 
@@ -38,7 +38,9 @@ class Pipelines {
   Pipelines(const vk::Device& device, const RenderPasses& passes);
 
   VkPipelineLayout layout() const { return layout_.get(); }
-  VkPipeline surface() const { return surface_.get(); }
+  VkPipeline surface(bool with_edges) const {
+    return with_edges ? surface_with_edges_.get() : surface_.get();
+  }
   VkPipeline line(bool on_top) const {
     return on_top ? line_on_top_.get() : line_.get();
   }
@@ -47,6 +49,7 @@ class Pipelines {
  private:
   vk::PipelineLayoutHandle layout_;
   vk::PipelineHandle surface_;
+  vk::PipelineHandle surface_with_edges_;
   vk::PipelineHandle line_;
   vk::PipelineHandle line_on_top_;
   vk::PipelineHandle point_;

@@ -112,9 +112,10 @@ vk::RenderPassHandle MakeUi(const Device& device, const ColorFormats& formats) {
 
 }  // namespace
 
-RenderPasses::RenderPasses(const Device& device, const ColorFormats& formats)
+RenderPasses::RenderPasses(const Device& device, const ColorFormats& formats,
+                           VkSampleCountFlagBits samples)
     : formats_(formats),
-      samples_(device.samples()),
+      samples_(samples),
       scene_(MakeScene(device, formats, samples_)),
       ui_(MakeUi(device, formats)) {}
 

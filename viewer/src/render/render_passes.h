@@ -23,7 +23,9 @@ struct ColorFormats {
 
 class RenderPasses {
  public:
-  RenderPasses(const vk::Device& device, const ColorFormats& formats);
+  // @param samples  per pixel, which the device must be able to
+  RenderPasses(const vk::Device& device, const ColorFormats& formats,
+               VkSampleCountFlagBits samples);
 
   // Attachments: color, depth, and with several samples the image they are resolved to.
   VkRenderPass scene() const { return scene_.get(); }

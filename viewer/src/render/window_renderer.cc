@@ -56,6 +56,17 @@ bool Same(VkExtent2D a, VkExtent2D b) {
   return a.width == b.width && a.height == b.height;
 }
 
+// What depends on the number of samples per pixel.
+struct Quality {
+  Quality(const vk::Device& device, const ColorFormats& formats,
+          VkSampleCountFlagBits samples)
+      : passes(device, formats, samples), drawer(device, passes) {}
+
+  RenderPasses passes;
+  PictureDrawer drawer;
+  std::optional<FrameTarget> target;
+};
+
 // All that a lost device takes with it. Destroyed from the last to the first.
 class Gpu {
  public:
@@ -64,13 +75,13 @@ class Gpu {
         gui_(gui),
         instance_(options, WindowExtensions()),
         surface_(instance_.get(), window),
-        device_(instance_.get(), surface_.get(), options.device),
+        device_(instance_.get(), surface_.get(), options),
         format_(vk::ChooseSurfaceFormat(device_, surface_.get())),
-        passes_(device_, FormatsLike(format_.format)),
-        drawer_(device_, passes_),
+        full_(device_, FormatsLike(format_.format), device_.samples()),
+        draft_(device_, FormatsLike(format_.format), VK_SAMPLE_COUNT_1_BIT),
         slots_{FrameSlot(device_), FrameSlot(device_)},
         free_{vk::MakeSemaphore(device_), vk::MakeSemaphore(device_)} {
-    gui_->Attach(device_, passes_);
+    gui_->Attach(device_, full_.passes);
   }
   ~Gpu() {
     vkDeviceWaitIdle(device_.get());
@@ -79,14 +90,17 @@ class Gpu {
   Gpu(const Gpu&) = delete;
   Gpu& operator=(const Gpu&) = delete;
 
-  bool Draw(const Picture& picture, const std::function<void()>& draw_ui);
-  Image Capture() const { return drawn_ ? target_->Read(device_) : Image{}; }
+  bool Draw(const Picture& picture, const std::function<void()>& draw_ui, bool draft);
+  Image Capture() const {
+    return drawn_ != nullptr ? drawn_->target->Read(device_) : Image{};
+  }
   const vk::Device& device() const { return device_; }
-  int samples() const { return passes_.samples(); }
+  int samples() const { return full_.passes.samples(); }
 
  private:
   bool FitToWindow();
-  void Show(const Picture& picture, std::uint32_t image);
+  void FitToSwapchain(Quality* quality);
+  void Show(const Picture& picture, std::uint32_t image, Quality* quality);
 
   GLFWwindow* window_;
   Gui* gui_;
@@ -94,15 +108,15 @@ class Gpu {
   Surface surface_;
   vk::Device device_;
   VkSurfaceFormatKHR format_;
-  RenderPasses passes_;
-  PictureDrawer drawer_;
+  Quality full_;
+  // The interface's pass has one sample in both, so that ImGui is drawn in either.
+  Quality draft_;
   std::array<FrameSlot, kFrames> slots_;
   std::array<vk::SemaphoreHandle, kFrames> free_;
-  std::optional<FrameTarget> target_;
   std::unique_ptr<vk::Swapchain> swapchain_;
   VkExtent2D fitted_to_{};  // the window's size when the swapchain was made
   bool stale_ = false;
-  bool drawn_ = false;  // something is in the target
+  const Quality* drawn_ = nullptr;  // in whose target something is
   std::size_t next_ = 0;
 };
 
@@ -122,23 +136,31 @@ bool Gpu::FitToWindow() {
     swapchain_.reset();
     return false;
   }
-  if (!target_ || !Same(target_->extent(), extent)) {
-    target_.reset();
-    drawn_ = false;
-    target_.emplace(device_, passes_, extent);
-  }
   return true;
 }
 
-bool Gpu::Draw(const Picture& picture, const std::function<void()>& draw_ui) {
+// The device has finished with a target of another size: it was idle when the swapchain
+// was made.
+void Gpu::FitToSwapchain(Quality* quality) {
+  const VkExtent2D extent = swapchain_->extent();
+  if (quality->target && Same(quality->target->extent(), extent)) return;
+  if (drawn_ == quality) drawn_ = nullptr;
+  quality->target.reset();
+  quality->target.emplace(device_, quality->passes, extent);
+}
+
+bool Gpu::Draw(const Picture& picture, const std::function<void()>& draw_ui,
+               bool draft) {
+  Quality* const quality = draft ? &draft_ : &full_;
   // A window that is being resized may be out of date again as soon as it was fitted.
   for (int attempt = 0; attempt < 3; ++attempt) {
     if (!FitToWindow()) return false;
+    FitToSwapchain(quality);
     slots_[next_].Wait();
     const auto image = swapchain_->Acquire(free_[next_].get(), &stale_);
     if (image) {
-      gui_->Build(draw_ui, target_->extent());
-      Show(picture, *image);
+      gui_->Build(draw_ui, quality->target->extent());
+      Show(picture, *image, quality);
       return true;
     }
     if (!stale_) return false;
@@ -146,13 +168,14 @@ bool Gpu::Draw(const Picture& picture, const std::function<void()>& draw_ui) {
   return false;
 }
 
-void Gpu::Show(const Picture& picture, std::uint32_t image) {
+void Gpu::Show(const Picture& picture, std::uint32_t image, Quality* quality) {
   FrameSlot& slot = slots_[next_];
-  slot.Record(picture, passes_, *target_, &drawer_, gui_);
-  RecordCopyToWindow(slot.commands(), target_->image(), swapchain_->image(image),
-                     target_->extent());
+  const FrameTarget& target = *quality->target;
+  slot.Record(picture, quality->passes, target, &quality->drawer, gui_);
+  RecordCopyToWindow(slot.commands(), target.image(), swapchain_->image(image),
+                     target.extent());
   slot.Submit(free_[next_].get(), swapchain_->drawn(image));
-  drawn_ = true;
+  drawn_ = quality;
   next_ = (next_ + 1) % kFrames;
   swapchain_->Present(image, &stale_);
 }
@@ -165,12 +188,12 @@ struct WindowRenderer::State {
     gpu.emplace(window, options, &gui);
   }
 
-  bool Draw(const Picture& picture, const std::function<void()>& draw_ui) {
+  bool Draw(const Picture& picture, const std::function<void()>& draw_ui, bool draft) {
     if (losses_to_come > 0) {
       --losses_to_come;
       throw DeviceLostError("Vulkan: the device was lost, as a test asked for");
     }
-    return gpu->Draw(picture, draw_ui);
+    return gpu->Draw(picture, draw_ui, draft);
   }
 
   // With another one of the same kind, if the driver has come back.
@@ -193,14 +216,14 @@ WindowRenderer::WindowRenderer(GLFWwindow* window, const DeviceOptions& options)
 
 WindowRenderer::~WindowRenderer() = default;
 
-bool WindowRenderer::Draw(const Picture& picture,
-                          const std::function<void()>& draw_ui) {
+bool WindowRenderer::Draw(const Picture& picture, const std::function<void()>& draw_ui,
+                          bool draft) {
   try {
-    return state_->Draw(picture, draw_ui);
+    return state_->Draw(picture, draw_ui, draft);
   } catch (const DeviceLostError&) {
     state_->ReplaceDevice();
   }
-  return state_->Draw(picture, draw_ui);
+  return state_->Draw(picture, draw_ui, draft);
 }
 
 Image WindowRenderer::Capture() { return state_->gpu->Capture(); }

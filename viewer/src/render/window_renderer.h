@@ -29,16 +29,18 @@ class WindowRenderer {
   // thrown.
   // @param draw_ui  as in OffscreenRenderer::Render; ImGui gets the window's events, so
   //   ask ImGui::GetIO().WantCaptureMouse before orbiting
+  // @param draft  with one sample per pixel, for when time is short
   // @return false if nothing was drawn, because the window has no extent (minimised) or
   //   the display takes no frames (hidden); wait for events then, rather than draw at
   //   once
-  bool Draw(const Picture& picture, const std::function<void()>& draw_ui = {});
+  bool Draw(const Picture& picture, const std::function<void()>& draw_ui = {},
+            bool draft = false);
 
   // What the last Draw showed, waiting for it; empty (0 by 0) before the first.
   Image Capture();
 
   const DeviceDescription& device() const;
-  int samples() const;
+  int samples() const;  // of what is no draft
   // How often the device was made anew.
   int devices_lost() const;
   // For tests: the next attempts to draw find the device lost.

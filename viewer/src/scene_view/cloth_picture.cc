@@ -4,11 +4,16 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "scene_view/corner_coloring.h"
+
 namespace dpe::viewer {
 namespace {
 
-std::vector<std::array<int, 2>> EdgesOf(const ClothObject& object) {
-  std::vector<std::array<int, 2>> edges;
+using Edges = std::vector<std::array<int, 2>>;
+
+// In order, as often as there are triangles that have them.
+Edges SidesOf(const ClothObject& object) {
+  Edges edges;
   for (const std::array<int, 3>& t : object.triangles) {
     for (int k = 0; k < 3; ++k) {
       const int a = t[k], b = t[(k + 1) % 3];
@@ -16,8 +21,24 @@ std::vector<std::array<int, 2>> EdgesOf(const ClothObject& object) {
     }
   }
   std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+Edges EdgesOf(const ClothObject& object) {
+  Edges edges = SidesOf(object);
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
+}
+
+Edges BorderOf(const ClothObject& object) {
+  const Edges sides = SidesOf(object);
+  Edges border;
+  for (size_t k = 0; k < sides.size();) {
+    const size_t first = k;
+    while (k < sides.size() && sides[k] == sides[first]) ++k;
+    if (k == first + 1) border.push_back(sides[first]);
+  }
+  return border;
 }
 
 bool IsKnown(const Eigen::VectorXd& positions, int vertex) {
@@ -58,12 +79,19 @@ std::vector<glm::vec3> VertexNormals(const std::vector<glm::vec3>& positions,
 }
 
 ClothShape::ClothShape(const ClothObject& object)
-    : object_(object), rest_lengths_(RestLengths(object)), edges_(EdgesOf(object)) {
+    : object_(object),
+      rest_lengths_(RestLengths(object)),
+      edges_(EdgesOf(object)),
+      border_(BorderOf(object)) {
+  CornerColoring coloring = ColorCorners(object.triangles, object.num_vertices());
   auto topology = std::make_shared<Topology>();
-  for (const std::array<int, 3>& t : object.triangles) {
-    for (const int vertex : t) topology->triangles.push_back(vertex);
+  topology->triangles.reserve(3 * coloring.triangles.size());
+  for (const std::array<std::uint32_t, 3>& t : coloring.triangles) {
+    topology->triangles.insert(topology->triangles.end(), t.begin(), t.end());
   }
+  topology->corners = std::move(coloring.corners);
   topology_ = std::move(topology);
+  copies_ = std::move(coloring.copies);
 }
 
 Surface ClothShape::MakeSurface(const Eigen::VectorXd& positions,
@@ -72,19 +100,37 @@ Surface ClothShape::MakeSurface(const Eigen::VectorXd& positions,
   surface.topology = topology_;
   if (!positions.allFinite()) {
     auto seen = std::make_shared<Topology>();
-    for (const std::array<int, 3>& t : object_.triangles) {
-      if (!IsKnown(positions, t[0]) || !IsKnown(positions, t[1]) ||
-          !IsKnown(positions, t[2])) {
+    seen->corners = topology_->corners;
+    for (size_t t = 0; t < object_.triangles.size(); ++t) {
+      const auto& [a, b, c] = object_.triangles[t];
+      if (!IsKnown(positions, a) || !IsKnown(positions, b) || !IsKnown(positions, c)) {
         continue;
       }
-      for (const int vertex : t) seen->triangles.push_back(vertex);
+      const auto begin = topology_->triangles.begin() + 3 * static_cast<long>(t);
+      seen->triangles.insert(seen->triangles.end(), begin, begin + 3);
     }
     surface.topology = std::move(seen);
   }
   surface.positions = ToPoints(positions);
-  surface.normals = VertexNormals(surface.positions, surface.topology->triangles);
+  surface.normals = Normals(surface.positions, *surface.topology);
   surface.colors = std::move(colors);
+  for (const int vertex : copies_) {
+    surface.positions.push_back(surface.positions[vertex]);
+    surface.normals.push_back(surface.normals[vertex]);
+    surface.colors.push_back(surface.colors[vertex]);
+  }
   return surface;
+}
+
+std::vector<glm::vec3> ClothShape::Normals(const std::vector<glm::vec3>& positions,
+                                           const Topology& topology) const {
+  if (copies_.empty()) return VertexNormals(positions, topology.triangles);
+  // A copy has no normal of its own.
+  std::vector<std::uint32_t> triangles = topology.triangles;
+  for (std::uint32_t& vertex : triangles) {
+    if (vertex >= positions.size()) vertex = copies_[vertex - positions.size()];
+  }
+  return VertexNormals(positions, triangles);
 }
 
 Lines ClothShape::MakeLines(const Eigen::VectorXd& positions,

@@ -28,9 +28,11 @@ class ClothShape {
   const ClothObject& object() const { return object_; }
   const Eigen::VectorXd& rest_lengths() const { return rest_lengths_; }
   const std::vector<std::array<int, 2>>& edges() const { return edges_; }
+  const std::vector<std::array<int, 2>>& border() const { return border_; }
 
   // @param positions  3N; triangles of vertices that are NaN are left out
   // @param colors     one per vertex
+  // The surface's topology has corners, so that it can be drawn with its edges.
   Surface MakeSurface(const Eigen::VectorXd& positions,
                       std::vector<glm::vec4> colors) const;
 
@@ -41,10 +43,17 @@ class ClothShape {
                          const std::vector<glm::vec4>& colors);
 
  private:
+  // @param positions  without copies
+  std::vector<glm::vec3> Normals(const std::vector<glm::vec3>& positions,
+                                 const Topology& topology) const;
+
   ClothObject object_;
   Eigen::VectorXd rest_lengths_;
-  std::vector<std::array<int, 2>> edges_;  // of triangles, each once
+  std::vector<std::array<int, 2>> edges_;   // of triangles, each once
+  std::vector<std::array<int, 2>> border_;  // those of one triangle alone
+  // Of the surface, whose vertices are the cloth's and then copies of some.
   std::shared_ptr<const Topology> topology_;
+  std::vector<int> copies_;  // of which vertex
 };
 
 // As the renderer takes them; (0, 0, 0) for NaN.

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kNumTicks = 5;
 constexpr double kLogarithmicSpan = 20.0;
-const glm::vec4 kUnknown(0.25f, 0.25f, 0.25f, 1.0f);
 const glm::vec4 kInfinite(0.8f, 0.05f, 0.6f, 1.0f);
 
 }  // namespace
@@ -25,7 +24,7 @@ double ColorScale::Position(double value) const {
 glm::vec4 ColorScale::Color(double value) const {
   if (std::isinf(value)) return kInfinite;
   const double t = Position(value);
-  if (std::isnan(t)) return kUnknown;
+  if (std::isnan(t)) return kUnknownColor;
   return glm::vec4(LinearFromSrgb(ViridisSrgb(static_cast<float>(t))), 1.0f);
 }
 

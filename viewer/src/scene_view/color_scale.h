@@ -9,6 +9,9 @@
 
 namespace dpe::viewer {
 
+// Linear RGBA of what is not known.
+inline const glm::vec4 kUnknownColor(0.25f, 0.25f, 0.25f, 1.0f);
+
 // Linear or logarithmic, from `low` to `high`.
 struct ColorScale {
   std::string title;  // "stiffness", ...
@@ -19,7 +22,7 @@ struct ColorScale {
 
   // 0 at low, 1 at high; clamped. NaN stays NaN.
   double Position(double value) const;
-  // Linear RGBA; grey for what is not known (NaN), magenta for what is infinite.
+  // Linear RGBA; kUnknownColor for NaN, magenta for what is infinite.
   glm::vec4 Color(double value) const;
   // Some values, low and high among them, with their text without unit.
   std::vector<std::pair<double, std::string>> Ticks() const;

@@ -90,6 +90,7 @@ Picture PictureMaker::Make(const Player& player, const ViewOptions& options) {
   const MotionState* compared = player.compared_motion();
   Layer layer{&player.motion(), compared};
   if (target != nullptr) layer = {target, &player.motion()};
+  missing_ = Missing(layer, options.color);
   // Parameters that were turned are those of the scene; so are its colours.
   const Tuning* tuning = player.tunes_scene() ? &player.tuning() : nullptr;
   AddCloths(layer, options, tuning, &picture);
@@ -101,6 +102,16 @@ Picture PictureMaker::Make(const Player& player, const ViewOptions& options) {
   if (options.fixed_vertices) AddFixedVertices(player.motion(), &picture);
   AddMarkers(player, &picture);
   return picture;
+}
+
+std::string PictureMaker::Missing(const Layer& layer, ColorMode mode) const {
+  if (mode == ColorMode::kDeviation && !has_deviations()) {
+    return "no standard deviation is known: give an estimate's --report";
+  }
+  if (mode == ColorMode::kDistance && layer.reference == nullptr) {
+    return "no distance is known: give a --target of vertices or a scene to --compare";
+  }
+  return "";
 }
 
 std::vector<QuantityValues> PictureMaker::Values(const Layer& layer,
@@ -131,7 +142,7 @@ std::vector<QuantityValues> PictureMaker::Values(const Layer& layer,
 
 void PictureMaker::SetScale(ColorMode mode, const std::vector<QuantityValues>& values) {
   scale_.reset();
-  if (mode == ColorMode::kPlain) return;
+  if (mode == ColorMode::kPlain || !missing_.empty()) return;
   std::vector<double> all;
   for (const QuantityValues& one : values) {
     all.insert(all.end(), one.of_vertices.begin(), one.of_vertices.end());
@@ -161,6 +172,7 @@ void PictureMaker::AddCloths(const Layer& layer, const ViewOptions& options,
                              const Tuning* tuning, Picture* picture) {
   const std::vector<QuantityValues> values = Values(layer, tuning, options.color);
   SetScale(options.color, values);
+  const glm::vec4 uncolored = missing_.empty() ? kClothColor : kUnknownColor;
   for (size_t o = 0; o < shapes_.size(); ++o) {
     const Eigen::VectorXd* x = At(layer.state->positions, o);
     if (x == nullptr) continue;
@@ -170,12 +182,19 @@ void PictureMaker::AddCloths(const Layer& layer, const ViewOptions& options,
       picture->surfaces.push_back(
           shape.MakeSurface(*x, scale_ && !values[o].of_vertices.empty()
                                     ? Colors(*scale_, values[o].of_vertices)
-                                    : std::vector<glm::vec4>(n, kClothColor)));
+                                    : std::vector<glm::vec4>(n, uncolored)));
+      picture->surfaces.back().edge_color = kEdgeColor;
+      // Where there is a reference, one of the two is a wireframe along the other.
+      picture->surfaces.back().under_lines =
+          options.springs || layer.reference != nullptr;
+      picture->surfaces.back().edge_width = options.wireframe ? 1.0f : 0.0f;
     }
-    // Over a surface edges are shadows; alone they are the cloth.
-    if (options.wireframe) {
-      picture->lines.push_back(ClothShape::MakeLines(
-          *x, shape.edges(), {options.surface ? kEdgeColor : kClothColor}));
+    if (options.surface && options.wireframe) {
+      // Of a line at the border the surface has the inner half only.
+      picture->lines.push_back(ClothShape::MakeLines(*x, shape.border(), {kEdgeColor}));
+    } else if (options.wireframe) {
+      // Without a surface edges are the cloth.
+      picture->lines.push_back(ClothShape::MakeLines(*x, shape.edges(), {kClothColor}));
     }
     if (options.springs) {
       const bool colored = scale_ && !values[o].of_springs.empty();

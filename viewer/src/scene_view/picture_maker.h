@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "picture/picture.h"
@@ -39,8 +40,10 @@ class PictureMaker {
   // All but the camera. Scales of what moves grow with what has been seen.
   Picture Make(const Player& player, const ViewOptions& options);
 
-  // Of the last picture; none for plain.
+  // Of the last picture; none for plain, nor where nothing is known to be coloured.
   const std::optional<ColorScale>& scale() const { return scale_; }
+  // What is missing for the last picture's colours, and how to give it; empty: nothing.
+  const std::string& missing() const { return missing_; }
   void ForgetScales();
 
   const Ball& home() const { return home_; }
@@ -52,6 +55,7 @@ class PictureMaker {
 
  private:
   struct Layer;
+  std::string Missing(const Layer& layer, ColorMode mode) const;
   std::vector<QuantityValues> Values(const Layer& layer, const Tuning* tuning,
                                      ColorMode mode) const;
   void SetScale(ColorMode mode, const std::vector<QuantityValues>& values);
@@ -71,6 +75,7 @@ class PictureMaker {
   double ground_ = 0.0, top_ = 0.0;
   std::vector<Surface> colliders_;
   std::optional<ColorScale> scale_;
+  std::string missing_;
   // The largest value seen so far of stretch (of its size), speed and distance.
   std::array<double, kNumColorModes> seen_{};
 };

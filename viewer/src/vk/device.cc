@@ -43,12 +43,17 @@ VkDevice MakeDevice(const Candidate& candidate, bool shows) {
   return device;
 }
 
-VkSampleCountFlagBits Samples(VkPhysicalDevice device) {
+VkSampleCountFlagBits Samples(VkPhysicalDevice device, int wanted) {
   VkPhysicalDeviceProperties properties{};
   vkGetPhysicalDeviceProperties(device, &properties);
   const VkSampleCountFlags both = properties.limits.framebufferColorSampleCounts &
                                   properties.limits.framebufferDepthSampleCounts;
-  return both & VK_SAMPLE_COUNT_4_BIT ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+  // The flags are the numbers themselves, and every device can do one.
+  for (const auto samples :
+       {VK_SAMPLE_COUNT_8_BIT, VK_SAMPLE_COUNT_4_BIT, VK_SAMPLE_COUNT_2_BIT}) {
+    if (static_cast<int>(samples) <= wanted && (both & samples) != 0) return samples;
+  }
+  return VK_SAMPLE_COUNT_1_BIT;
 }
 
 // Vulkan promises one of the two.
@@ -63,9 +68,9 @@ VkFormat DepthFormat(VkPhysicalDevice device) {
 
 }  // namespace
 
-Device::Device(VkInstance instance, VkSurfaceKHR surface, const std::string& wanted)
-    : instance_(instance), chosen_(Choose(instance, surface, wanted)) {
-  samples_ = Samples(chosen_.device);
+Device::Device(VkInstance instance, VkSurfaceKHR surface, const DeviceOptions& options)
+    : instance_(instance), chosen_(Choose(instance, surface, options.device)) {
+  samples_ = Samples(chosen_.device, options.samples);
   depth_format_ = DepthFormat(chosen_.device);
   vkGetPhysicalDeviceMemoryProperties(chosen_.device, &memory_);
   device_ = MakeDevice(chosen_, surface != VK_NULL_HANDLE);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "vk/device_choice.h"
+#include "vk/device_options.h"
 #include "vk/handle.h"
 
 namespace dpe::viewer::vk {
@@ -15,8 +16,7 @@ namespace dpe::viewer::vk {
 class Device {
  public:
   // @param surface  null: draws into memory only
-  // @param wanted  as DeviceOptions::device
-  Device(VkInstance instance, VkSurfaceKHR surface, const std::string& wanted);
+  Device(VkInstance instance, VkSurfaceKHR surface, const DeviceOptions& options);
   // Waits until the device is idle.
   ~Device();
   Device(const Device&) = delete;
@@ -29,7 +29,7 @@ class Device {
   std::uint32_t queue_family() const { return chosen_.queue_family; }
   const DeviceDescription& description() const { return chosen_.description; }
   VkCommandPool command_pool() const { return command_pool_.get(); }
-  // 4 samples per pixel if colour and depth can have them, else 1.
+  // Per pixel: of DeviceOptions::samples what colour and depth can both have.
   VkSampleCountFlagBits samples() const { return samples_; }
   VkFormat depth_format() const { return depth_format_; }
 

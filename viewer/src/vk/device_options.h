@@ -16,6 +16,9 @@ struct DeviceOptions {
   // software). Digits: the index in ListDevices(). Anything else: a part of its name,
   // upper and lower case alike.
   std::string device;
+  // Samples per pixel, 1, 2, 4 or 8: the most that the device can and that are not more
+  // than these. With one, edges of surfaces have steps.
+  int samples = 4;
   // Turns the validation layer on; throws VulkanError where it is not installed.
   bool validation = false;
   // Where messages of the validation layer go; null: nowhere. It may outlive the
