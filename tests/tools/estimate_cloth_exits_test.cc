@@ -101,7 +101,7 @@ TEST_F(EstimateClothExitsTest, TwoAndEverythingWrittenAfterCtrlC) {
 TEST_F(EstimateClothExitsTest, ThreeWhereTheStartCannotBeSimulated) {
   scene_.integration_method = IntegrationMethod::kSymplecticEuler;
   SaveScene(scene_, path_);
-  const ProgramResult result = Run({"--init=uniform:10000000"});
+  const ProgramResult result = Run({"--init=uniform:10000000", "--horizon=full"});
   EXPECT_EQ(result.exit_code, 3) << result.out;
   EXPECT_THAT(result.out, HasSubstr("--init=screen"));
   EXPECT_EQ(Report().at("termination"), "start_failed");

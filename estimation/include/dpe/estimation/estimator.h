@@ -37,7 +37,9 @@ enum class InitMethod {
 enum class Horizon {
   kAuto,  // grow with LM, unless inverse dynamics gave the start, else full
   kFull,  // all at once
-  kGrow,  // the first few frames, then more and more, each from the one before
+  // The first few frames, then more and more, each from the one before. Where each
+  // element has its own unknown and all start alike, one value for all comes first.
+  kGrow,
   // Short windows with unknown states that are made to join (multiple_shooting.h), then
   // all at once; of one capture only. A state is 6 unknowns per vertex and window.
   kShooting,
@@ -77,10 +79,10 @@ struct EstimatorOptions {
   double init_perturbation = 0.0;  // multiply the start by exp(this * N(0,1)), seeded
   std::uint64_t seed = 0;          // of the perturbation
   int max_screen_parameters = 8;   // for kAuto, see there
-  // With at most this many parameters the fit is checked against log-spaced trial
-  // values after it has converged, and repeated from a better one if there is any; a
-  // start that cannot be simulated is replaced by the screen's best. Notes say so. 0
-  // turns it off.
+  // With at most this many parameters the fit, after it has converged, is checked
+  // against log-spaced trial values and against minima along the valley of the cost
+  // that it lies in, and repeated from a better one if there is any; a start that
+  // cannot be simulated is replaced by the screen's best. Notes say so. 0 turns it off.
   int max_checked_parameters = 3;
   int max_iterations = -1;  // negative: 200 for LM, 5000 for L-BFGS
   double max_seconds = 1e9;
