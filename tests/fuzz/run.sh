@@ -7,7 +7,7 @@
 #   --build FOLDER   where they were built; default build-fuzz
 #   --jobs N         so many targets at once; default 1
 #   --keep           afterwards, add to the corpus what reaches more code than it does,
-#                    inputs of at most 1 kB and 16 files for each target
+#                    at most 8 inputs of 512 bytes for each target
 #   TARGET           scene, csv, ...; default: all of them
 #
 # Prints a line per target: executions, executions per second, edges covered. What is
@@ -75,16 +75,17 @@ fuzz() {
 merge() {
   local target="$1" minimal="$build/corpus/$1.minimal" size file count=0
   rm -rf "$minimal"
-  # Beside the seeds, inputs that reach something new, small ones first.
+  # Beside the seeds, inputs that reach something new. Of those that are small enough the
+  # larger ones: they are more like files.
   cp -r "$here/corpus/$target" "$minimal"
-  "$build/bin/${target}_fuzzer" -merge=1 -max_len=1024 "$minimal" "$build/corpus/$target" \
+  "$build/bin/${target}_fuzzer" -merge=1 -max_len=512 "$minimal" "$build/corpus/$target" \
       > "$build/findings/$target.merge" 2>&1
   while read -r size file; do
-    if ((count >= 16 || size > 1024)); then break; fi
-    if [[ -e "$here/corpus/$target/$(basename "$file")" ]]; then continue; fi
+    if ((count >= 8)); then break; fi
+    if ((size > 512)) || [[ -e "$here/corpus/$target/$(basename "$file")" ]]; then continue; fi
     cp "$file" "$here/corpus/$target/"
     count=$((count + 1))
-  done <<< "$(find "$minimal" -type f -printf '%s %p\n' | sort -n)"
+  done <<< "$(find "$minimal" -type f -printf '%s %p\n' | sort -rn)"
   rm -rf "$minimal"
 }
 

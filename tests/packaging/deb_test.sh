@@ -8,6 +8,8 @@
 set -euo pipefail
 # shellcheck source=packaging.sh
 source "$(dirname "${BASH_SOURCE[0]}")/packaging.sh"
+# What a root may have mounted is not removed with it.
+trap 'rm -rf --one-file-system "$work"' EXIT
 if ! command -v dpkg-shlibdeps > /dev/null || ! command -v cpack > /dev/null; then
   echo "skipped: dpkg-shlibdeps (dpkg-dev) or cpack was not found"
   exit 77
