@@ -23,7 +23,10 @@ class FrameArena {
   VkDeviceSize Put(const std::vector<Item>& items) {
     const VkDeviceSize offset = used_;
     const std::size_t bytes = items.size() * sizeof(Item);
-    std::memcpy(static_cast<char*>(buffer_.mapped()) + offset, items.data(), bytes);
+    // Of no item there may be no address either, which memcpy does not take.
+    if (bytes > 0) {
+      std::memcpy(static_cast<char*>(buffer_.mapped()) + offset, items.data(), bytes);
+    }
     used_ += Padded(bytes);
     return offset;
   }
