@@ -16,6 +16,27 @@
 namespace dpe {
 namespace {
 
+// The lines that say what a mesh is, the others empty, so that lines keep their
+// numbers: what is not used (groups, materials, weights of skins, ...) cannot be wrong.
+// Lines end with \n, whatever they end with in the file.
+std::string MeshLines(const std::string& text) {
+  std::string result;
+  size_t begin = 0;
+  while (begin < text.size()) {
+    const size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    const size_t word = std::min(line.find_first_not_of(" \t"), line.size());
+    const size_t length = std::min(line.find_first_of(" \t", word), line.size()) - word;
+    for (const char* used : {"v", "vn", "vt", "f"}) {
+      if (line.compare(word, length, used) == 0) result += line;
+    }
+    result += '\n';
+    begin = end + 1;
+    if (end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n') ++begin;
+  }
+  return result;
+}
+
 // The loader takes a coordinate that is not a number for zero, so the lines of the
 // vertices are read here, with their line number.
 std::vector<double> ReadVertices(const std::string& path, const std::string& text) {
@@ -100,7 +121,7 @@ void RequireWholeFaces(const std::string& path, const std::string& text, size_t 
 }  // namespace
 
 TriangleMesh LoadObjMesh(const std::string& path) {
-  const std::string text = ReadTextFile(path, "an OBJ file");
+  const std::string text = MeshLines(ReadTextFile(path, "an OBJ file"));
   const std::vector<double> coordinates = ReadVertices(path, text);
   TriangleMesh mesh;
   mesh.triangles = ReadTriangles(path, text);

@@ -72,6 +72,27 @@ TEST(ObjMesh, AGridFromAFileIsTheSameCloth) {
   EXPECT_EQ(read.triangles, grid.triangles);
 }
 
+// What a cloth does not need cannot make its file wrong, be it nonsense or not.
+TEST(ObjMesh, OtherKindsOfLinesAreNotRead) {
+  const TriangleMesh mesh = Load(std::string(kSquare) +
+                                 "vw 1 0 7e26\nvw 1 0 7777777777777777777777\n"
+                                 "usemtl \ng a b\ns 99999999999\nvp x\n"
+                                 "l 1 900\np 77\nt 1 2 3\n\tf 1 3 4\n");
+  EXPECT_THAT(mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
+}
+
+TEST(ObjMesh, LinesEndAsOnAnySystem) {
+  for (const char* end : {"\n", "\r\n", "\r"}) {
+    std::string text = "# mesh\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+    for (size_t at = 0; (at = text.find('\n', at)) != std::string::npos;) {
+      text.replace(at, 1, end);
+      at += std::string(end).size();
+    }
+    EXPECT_THAT(Load(text).triangles, ElementsAre(Triangle{0, 1, 2}));
+    EXPECT_THAT(ErrorOfLoading(text + "v 0 0" + end), HasSubstr("line 6"));
+  }
+}
+
 TEST(ObjMesh, RefusesFilesThatAreNoMesh) {
   EXPECT_THAT(ErrorOfLoading(""), HasSubstr("no faces"));
   EXPECT_THAT(ErrorOfLoading(kSquare), HasSubstr("no faces"));
