@@ -31,12 +31,6 @@ std::vector<FitCapture> WithOneValue(std::vector<FitCapture> captures,
   return captures;
 }
 
-std::vector<const Scene*> ScenesOf(const std::vector<FitCapture>& captures) {
-  std::vector<const Scene*> scenes;
-  for (const FitCapture& capture : captures) scenes.push_back(&capture.blank);
-  return scenes;
-}
-
 // Down from `start`, and from trial values over the whole range as long as there are
 // few parameters and one of them is better.
 // @return  false if no point that was tried can be simulated

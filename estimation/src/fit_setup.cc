@@ -141,6 +141,12 @@ std::vector<FitCapture> CutCaptures(const std::vector<FitCapture>& captures,
   return cut;
 }
 
+std::vector<const Scene*> ScenesOf(const std::vector<FitCapture>& captures) {
+  std::vector<const Scene*> scenes;
+  for (const FitCapture& capture : captures) scenes.push_back(&capture.blank);
+  return scenes;
+}
+
 int MostFrames(const std::vector<FitCapture>& captures) {
   int most = 0;
   for (const FitCapture& capture : captures) most = std::max(most, capture.num_frames);

@@ -47,6 +47,9 @@ std::vector<FitCapture> PrepareCaptures(const std::vector<CaptureView>& captures
 std::vector<FitCapture> CutCaptures(const std::vector<FitCapture>& captures,
                                     int num_frames);
 
+// What the captures' fits simulate: their scenes, which must outlive the result.
+std::vector<const Scene*> ScenesOf(const std::vector<FitCapture>& captures);
+
 // Frames of the longest capture.
 int MostFrames(const std::vector<FitCapture>& captures);
 

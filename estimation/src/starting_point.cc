@@ -48,9 +48,7 @@ void StartWhereScenesDo(const std::vector<FitCapture>& captures,
                         const JointLayout& joint, const std::vector<int>& seen,
                         Eigen::VectorXd* parameters) {
   if (seen.size() == captures.size()) return;
-  std::vector<const Scene*> scenes;
-  for (const FitCapture& capture : captures) scenes.push_back(&capture.blank);
-  const Eigen::VectorXd values = joint.Extract(scenes);
+  const Eigen::VectorXd values = joint.Extract(ScenesOf(captures));
   for (const ParameterBlock& block : joint.layout().blocks()) {
     const bool is_seen =
         std::find(seen.begin(), seen.end(), block.segment) != seen.end();

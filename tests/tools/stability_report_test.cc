@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,14 @@ TEST(StabilityReportTest, SaysWhereTheKrylovSolverDiffers) {
   EXPECT_THAT(
       StabilityResults(rows).tables[0].caption,
       HasSubstr("11 of 12 cells, but not: implicit_euler at drag coefficient 10"));
+}
+
+TEST(StabilityPlotsTest, EachPlotIsDrawnOnce) {
+  std::set<std::string> names;
+  for (const Plot& plot : StabilityPlots({})) {
+    EXPECT_TRUE(names.insert(plot.name).second) << plot.name;
+  }
+  EXPECT_EQ(names.count("stability_energy"), 1u);
 }
 
 TEST(StabilityPlotsTest, EnergyIsPlottedAsWhatItIsOffBy) {

@@ -68,8 +68,6 @@ Advice AdviceAt(const Cells& cells, double value) {
           ", " + FormatNumber(100.0 * least, 2) + " %"};
 }
 
-std::string ValueText(double value) { return FormatNumber(value, 6); }
-
 // "1 ... 50: symplectic_euler; 1000: tr_bdf2".
 std::string AdviceText(const Cells& cells, const std::vector<double>& values) {
   std::string text;
@@ -180,10 +178,9 @@ Table AdviceTable(const std::vector<Row>& rows) {
       "Which integrator to trust where. \"Use\" names the one with the cheapest step "
       "among those that are within 5 % of the motion (barely: more than 4 % off) and "
       "whose gradient is not wrong, with the direct solver and steps of 2 ms unless "
-      "the "
-      "axis says otherwise. (Not explicit_euler: symplectic_euler costs the same and "
-      "is "
-      "stable for longer steps.) Ranges are from tested value to tested value; between "
+      "the axis says otherwise. (Not explicit_euler: symplectic_euler costs the same "
+      "and is stable for longer steps.) Ranges are from tested value to tested value; "
+      "between "
       "two ranges nothing was tested. A contact that is over within a step throws "
       "vertices back as fast as they came; linearly_implicit_euler and implicit_euler "
       "stop them at the surface, and tr_bdf2 throws them back at another speed, which "

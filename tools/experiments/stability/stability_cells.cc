@@ -1,6 +1,7 @@
 #include "experiments/stability/stability_cells.h"
 
 #include "dpe/engine/scene.h"
+#include "experiments/output/tables.h"
 
 namespace dpe::experiments {
 namespace {
@@ -12,6 +13,8 @@ constexpr int kFirstImplicit = 2;
 std::string MethodName(int method) {
   return IntegrationMethodName(static_cast<IntegrationMethod>(method));
 }
+
+std::string ValueText(double value) { return FormatNumber(value, 6); }
 
 std::string WayName(const Way& way) {
   const bool has_choice = way.method >= kFirstImplicit;

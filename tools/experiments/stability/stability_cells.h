@@ -23,6 +23,8 @@ constexpr Way kWays[] = {{0, "cholesky"}, {1, "cholesky"}, {2, "cholesky"}, {2, 
                          {3, "cholesky"}, {3, "cg"},       {4, "cholesky"}, {4, "cg"}};
 
 std::string MethodName(int method);
+// A value of an axis.
+std::string ValueText(double value);
 // "implicit_euler, cg"; the method alone where there is no choice.
 std::string WayName(const Way& way);
 

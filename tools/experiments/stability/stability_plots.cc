@@ -93,10 +93,6 @@ std::vector<Plot> StabilityPlots(const std::vector<Row>& rows) {
       if (axis.name == axis_name) plots.push_back(AxisPlot(rows, axis));
     }
   }
-  plots.push_back(
-      HistoryPlot(rows, "energy", 1.0,
-                  "Energy that an undamped free cloth loses or gains, E(0) at first",
-                  "|E / E(0) - 1|"));
   plots.push_back(HistoryPlot(
       rows, "energy", 1.0, "Energy drift of an undamped free cloth", "|E / E(0) - 1|"));
   plots.push_back(HistoryPlot(rows, "momentum", 0.0,

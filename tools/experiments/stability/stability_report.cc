@@ -12,8 +12,6 @@
 namespace dpe::experiments {
 namespace {
 
-std::string ValueText(double value) { return FormatNumber(value, 6); }
-
 std::string CellText(const Row* row) {
   if (row == nullptr) return "-";
   const std::string result = ResultOf(*row);
