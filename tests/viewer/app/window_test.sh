@@ -52,9 +52,13 @@ wait_for() {
 }
 
 is() { [[ "$(field "$1")" == "$2" ]]; }
-is_not() { [[ "$(field "$1")" != "$2" ]]; }
-above() { awk -v a="$(field "$1")" -v b="$2" 'BEGIN {exit !(a > b)}'; }
-below() { awk -v a="$(field "$1")" -v b="$2" 'BEGIN {exit !(a < b)}'; }
+is_not() {  # not, and there is a value
+  local value
+  value="$(field "$1")"
+  [[ -n "$value" && "$value" != "$2" ]]
+}
+above() { awk -v a="$(field "$1")" -v b="$2" 'BEGIN {exit !(a != "" && a > b)}'; }
+below() { awk -v a="$(field "$1")" -v b="$2" 'BEGIN {exit !(a != "" && a < b)}'; }
 has_line() { [[ -s "$state" ]]; }
 has_file() { compgen -G "$1" > /dev/null; }
 key() { xdotool key --window "$window" "$1"; }
@@ -66,6 +70,9 @@ until_is() {  # NAME VALUE
     sleep 0.1
   done
 }
+
+# What a key or a drag is to change is read before it: the viewer may have done it by the
+# time that the shell looks.
 
 # press_widget NAME [RIGHT]: as a mouse does, so many pixels right of its middle. A
 # panel sees what is done between one picture and the next, so each step waits for one.
@@ -197,12 +204,14 @@ wait_for "which does not orbit either" is yaw "$orbited"
 xdotool click 4; wait_for "the wheel comes closer" below distance "$distance"
 closer="$(field distance)"
 xdotool click 5; wait_for "and goes back" above distance "$closer"
-key w; wait_for "W comes closer" below distance "$distance"
+here="$(field distance)"
+key w; wait_for "W comes closer" below distance "$here"
 key r; wait_for "R resets the distance" is distance "$distance"
 wait_for "and the direction" is yaw "$yaw"
 wait_for "and the place" is target "$target"
 key s; wait_for "S goes away" above distance "$distance"
-key f; wait_for "F frames the cloth" below distance "$(field distance)"
+here="$(field distance)"
+key f; wait_for "F frames the cloth" below distance "$here"
 key h; wait_for "H shows the keys" is help true
 key h; wait_for "and hides them" is help false
 key p; wait_for "P writes a PNG" has_file "$scratch/dpe_viewer_0001.png"
