@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <string>
 
 #include "derivatives/gradient_pass.h"
 #include "derivatives/jacobian_cost.h"
@@ -67,12 +69,46 @@ ObjectRecord Sensitivity::Record(int object) const {
           &rollout_->trajectory_.velocities[object]};
 }
 
+void Sensitivity::Note(int object, const PassOutcome& pass) {
+  if (pass.ok() || !status_.ok()) return;
+  const int steps_per_frame = simulator_->scene_.steps_per_frame;
+  status_.pass = RolloutStatus::Pass::kDerivative;
+  status_.code = pass.outcome.code;
+  status_.reason = pass.outcome.reason;
+  status_.object = object;
+  status_.frame = pass.step / steps_per_frame + 1;
+  status_.step = pass.step % steps_per_frame;
+}
+
+void Sensitivity::NoteNotFinite(const std::vector<StateDerivative>& derivatives,
+                                const RowMajorMatrix& jacobian) {
+  int row = 0;
+  while (jacobian.row(row).allFinite()) ++row;
+  int column = 0;
+  while (std::isfinite(jacobian(row, column))) ++column;
+  status_.pass = RolloutStatus::Pass::kDerivative;
+  status_.code = RolloutStatus::Code::kNotFinite;
+  for (const StateDerivative& d : derivatives) {
+    const Eigen::Index num_rows = std::max(d.d_position.rows(), d.d_velocity.rows());
+    if (row < d.first_row || row >= d.first_row + num_rows) continue;
+    if (d.frame <= status_.frame) continue;
+    status_.frame = d.frame;
+    status_.object = d.object;
+  }
+  status_.reason = "residual row " + std::to_string(row);
+  for (const ParameterBlock& block : simulator_->layout().blocks()) {
+    if (column < block.offset || column >= block.offset + block.size) continue;
+    status_.reason += " by " + ParameterKindName(block.kind) + " " +
+                      std::to_string(column - block.offset);
+  }
+}
+
 Eigen::VectorXd Sensitivity::Gradient(const std::vector<Eigen::MatrixXd>& dl_dx,
                                       const std::vector<Eigen::MatrixXd>& dl_dv) {
   const ScopedTimer timer(simulator_->options_.timings, TimedPart::kDerivatives);
   const int num_objects = static_cast<int>(simulator_->systems_.size());
   std::vector<Eigen::VectorXd> parts(num_objects);
-  std::atomic<bool> ok{true};
+  std::vector<PassOutcome> passes(num_objects);
   ParallelFor(simulator_->options_.num_threads, num_objects, [&](int o) {
     const Eigen::MatrixXd none;
     const Eigen::MatrixXd& seed_x =
@@ -80,16 +116,19 @@ Eigen::VectorXd Sensitivity::Gradient(const std::vector<Eigen::MatrixXd>& dl_dx,
     const Eigen::MatrixXd& seed_v =
         o < static_cast<int>(dl_dv.size()) ? dl_dv[o] : none;
     if (!simulator_->systems_[o] || (seed_x.size() == 0 && seed_v.size() == 0)) return;
-    if (!ObjectGradient(Record(o), seed_x, seed_v, &parts[o])) ok = false;
+    passes[o] = ObjectGradient(Record(o), seed_x, seed_v, &parts[o]);
   });
-  ok_ &= ok;
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(simulator_->layout().size());
   for (int o = 0; o < num_objects; ++o) {  // in this order whatever the threads
+    Note(o, passes[o]);
     if (parts[o].size() == 0) continue;
     const std::vector<int>& columns = simulator_->systems_[o]->columns().used();
     for (size_t k = 0; k < columns.size(); ++k) gradient[columns[k]] += parts[o][k];
   }
-  ok_ &= gradient.allFinite();
+  if (status_.ok() && !gradient.allFinite()) {  // the sum over objects
+    status_.pass = RolloutStatus::Pass::kDerivative;
+    status_.code = RolloutStatus::Code::kNotFinite;
+  }
   return gradient;
 }
 
@@ -100,13 +139,12 @@ void Sensitivity::JacobianVectorProduct(const Eigen::VectorXd& dp,
   const int num_objects = static_cast<int>(simulator_->systems_.size());
   dx->assign(num_objects, {});
   dv->assign(num_objects, {});
-  std::atomic<bool> ok{true};
+  std::vector<PassOutcome> passes(num_objects);
   ParallelFor(simulator_->options_.num_threads, num_objects, [&](int o) {
     if (!simulator_->systems_[o]) return;
-    const bool solved = PropagateTangent(Record(o), dp, &(*dx)[o], &(*dv)[o]);
-    if (!solved || !(*dx)[o].allFinite() || !(*dv)[o].allFinite()) ok = false;
+    passes[o] = PropagateTangent(Record(o), dp, &(*dx)[o], &(*dv)[o]);
   });
-  ok_ &= ok;
+  for (int o = 0; o < num_objects; ++o) Note(o, passes[o]);
 }
 
 RowMajorMatrix Sensitivity::Jacobian(const std::vector<StateDerivative>& derivatives,
@@ -127,11 +165,13 @@ void Sensitivity::Jacobian(const std::vector<StateDerivative>& derivatives,
   for (int o = 0; o < static_cast<int>(simulator_->systems_.size()); ++o) {
     if (!simulator_->systems_[o]) continue;
     const StateDerivatives of_object = DerivativesOf(derivatives, o);
-    ok_ &= method == JacobianMethod::kTangent
-               ? AddTangentJacobian(Record(o), of_object, jacobian)
-               : AddAdjointJacobian(Record(o), of_object, jacobian);
+    Note(o, method == JacobianMethod::kTangent
+                ? AddTangentJacobian(Record(o), of_object, jacobian)
+                : AddAdjointJacobian(Record(o), of_object, jacobian));
   }
-  ok_ &= IsFinite(simulator_->options_.num_threads, *jacobian);
+  if (status_.ok() && !IsFinite(simulator_->options_.num_threads, *jacobian)) {
+    NoteNotFinite(derivatives, *jacobian);
+  }
 }
 
 JacobianCosts Sensitivity::PredictCosts(

@@ -8,8 +8,8 @@ StepReader::StepReader(const ObjectRecord& record)
       runner_(*record.scene, *record.options, record.system),
       v0_(record.system->num_coordinates()) {}
 
-bool StepReader::Rerun(int frame) {
-  if (buffered_ == frame) return true;
+StepOutcome StepReader::Rerun(int frame) {
+  if (buffered_ == frame) return {};
   const Scene& scene = *record_.scene;
   const int n = record_.system->num_coordinates();
   const int stages = runner_.num_stages();
@@ -25,18 +25,22 @@ bool StepReader::Rerun(int frame) {
   // Where the last step leads is known; its stage is not.
   const int num_steps = scene.steps_per_frame - (stages > 1 ? 0 : 1);
   int failed_step = 0;
-  buffered_ = runner_.Run(frame, num_steps, target, {}, &failed_step).ok() ? frame : -1;
-  return buffered_ == frame;
+  StepOutcome outcome = runner_.Run(frame, num_steps, target, {}, &failed_step);
+  buffered_ = outcome.ok() ? frame : -1;
+  return outcome;
 }
 
-bool StepReader::Read(int s, StepStates* states) {
-  if (record_.options->interrupted && record_.options->interrupted()) return false;
+StepOutcome StepReader::Read(int s, StepStates* states) {
+  if (record_.options->interrupted && record_.options->interrupted()) {
+    return {RolloutStatus::Code::kInterrupted, ""};
+  }
   const int steps_per_frame = record_.scene->steps_per_frame;
   const int frame = s / steps_per_frame, k = s % steps_per_frame;
   const InnerStates* inner = &record_.tape->inner;
   int slot = frame;
   if (runner_.HasInnerStates() && frame >= inner->num_frames()) {
-    if (!Rerun(frame)) return false;
+    const StepOutcome outcome = Rerun(frame);
+    if (!outcome.ok()) return outcome;
     inner = &buffer_;
     slot = 0;
   }
@@ -58,7 +62,7 @@ bool StepReader::Read(int s, StepStates* states) {
     states->xs = inner->xs(slot, k);
     states->vs = inner->vs(slot, k);
   }
-  return true;
+  return {};
 }
 
 }  // namespace dpe

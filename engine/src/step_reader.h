@@ -27,13 +27,13 @@ class StepReader {
 
   // The states around step `s` (0-based, of the whole rollout). They stay valid until
   // the next call, which is cheapest for a step of the same frame. May use the system's
-  // solver. False if the steps of a frame could not be taken again, or `interrupted` is
-  // true.
-  bool Read(int s, StepStates* states);
+  // solver. Not ok if the steps of a frame could not be taken again, or `interrupted`
+  // is true.
+  StepOutcome Read(int s, StepStates* states);
 
  private:
   // Makes the inner states of `frame` again, unless the buffer has them.
-  bool Rerun(int frame);
+  StepOutcome Rerun(int frame);
 
   ObjectRecord record_;
   FrameRunner runner_;

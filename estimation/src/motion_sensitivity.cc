@@ -67,13 +67,13 @@ class Growth {
     u.normalize();
     for (int i = 0; i < kIterations; ++i) {
       const Eigen::MatrixXd squares = Push(&sensitivity, u);
-      if (!sensitivity.ok()) return Failure("a derivative pass failed or was stopped");
+      if (!sensitivity.ok()) return Failure(sensitivity.status().Message());
       const double before = result_.growth;
       Keep(squares);
       if (result_.growth <= (1.0 + kGain) * before) break;
       if (i + 1 == kIterations) break;
       u = Pull(&sensitivity);
-      if (!sensitivity.ok()) return Failure("a derivative pass failed or was stopped");
+      if (!sensitivity.ok()) return Failure(sensitivity.status().Message());
       if (!(u.norm() > 0.0)) break;
       u.normalize();
     }

@@ -5,6 +5,15 @@
 #include <utility>
 
 namespace dpe {
+namespace {
+
+// Of a pass that failed, or whose result is not finite in the units of the unknowns.
+std::string DerivativeMessage(const Sensitivity& sensitivity) {
+  return sensitivity.ok() ? "the derivatives left the range of finite numbers"
+                          : sensitivity.status().Message();
+}
+
+}  // namespace
 
 SegmentRollout::SegmentRollout(const Scene& scene,
                                std::vector<const TrajectoryCost*> costs,
@@ -91,7 +100,7 @@ bool SegmentRollout::EvaluateJacobian(JacobianMethod method,
     is_finite &= jacobian_.row(row).allFinite();
   }
   if (sensitivity.ok() && is_finite) return true;
-  message_ = "the derivative of the rollout could not be computed";
+  message_ = DerivativeMessage(sensitivity);
   return false;
 }
 
@@ -113,8 +122,8 @@ bool SegmentRollout::EvaluateGradient(const double* residuals,
   }
   Sensitivity sensitivity(&simulator_, &rollout_);
   *gradient = sensitivity.Gradient(dl_dx, dl_dv);
-  if (sensitivity.ok() && gradient->allFinite()) return true;
-  message_ = "the gradient of the rollout could not be computed";
+  if (sensitivity.ok()) return true;
+  message_ = sensitivity.status().Message();
   return false;
 }
 

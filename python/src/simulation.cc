@@ -50,9 +50,8 @@ void PyRollout::RequireDerivatives() const {
   }
 }
 
-void PyRollout::RaiseUnsolved() const {
-  RaiseSimulationError("a linear system of the derivative pass could not be solved",
-                       py::cast(trajectory()));
+void PyRollout::RaiseFailure(const RolloutStatus& status) const {
+  RaiseSimulationError(status.Message(), py::cast(trajectory()));
 }
 
 const Rollout* PyRollout::Current(Simulator* simulator) {

@@ -74,26 +74,26 @@ class PyRollout {
   const Simulation& simulation() const { return *simulation_; }
 
   // Calls work(&sensitivity), as Simulation::Call.
-  // @throws SimulationError if the rollout had failed or a linear system could not be
-  //         solved
+  // @throws SimulationError if the rollout had failed or the derivatives fail: where
+  //         and why
   template <class Work>
   auto Differentiate(const Work& work) {
     RequireDerivatives();
     Interrupts interrupts;
-    bool ok = true;
+    RolloutStatus status;
     auto result = simulation_->Call(&interrupts, [&](Simulator* simulator) {
       Sensitivity sensitivity(simulator, Current(simulator));
       auto value = work(&sensitivity);
-      ok = sensitivity.ok();
+      status = sensitivity.status();
       return value;
     });
-    if (!ok) RaiseUnsolved();
+    if (!status.ok()) RaiseFailure(status);
     return result;
   }
 
  private:
   void RequireDerivatives() const;
-  [[noreturn]] void RaiseUnsolved() const;
+  [[noreturn]] void RaiseFailure(const RolloutStatus& status) const;
   const Rollout* Current(Simulator* simulator);
 
   std::shared_ptr<Simulation> simulation_;

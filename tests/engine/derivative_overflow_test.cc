@@ -1,7 +1,8 @@
 // Derivatives that leave the range of finite numbers are not ok, though the states of
-// the rollout are finite.
+// the rollout are finite; the status says where.
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
 #include "dpe/engine/sensitivity.h"
@@ -11,6 +12,17 @@
 
 namespace dpe::test {
 namespace {
+
+// In object 0, where a state depends on the motion up to `frame`.
+void ExpectNotFinite(const RolloutStatus& status, int frame) {
+  EXPECT_FALSE(status.ok());
+  EXPECT_EQ(status.code, RolloutStatus::Code::kNotFinite);
+  EXPECT_EQ(status.object, 0);
+  EXPECT_EQ(status.frame, frame);
+  const std::string start =
+      "the derivatives left the range of finite numbers in object 0";
+  EXPECT_EQ(status.Message().substr(0, start.size()), start);
+}
 
 class DerivativeOverflowTest : public testing::TestWithParam<IntegrationMethod> {};
 
@@ -28,8 +40,13 @@ TEST_P(DerivativeOverflowTest, IsNotOk) {
     Sensitivity sensitivity(&simulator, &rollout);
     EXPECT_TRUE(sensitivity.Gradient({seed}).allFinite());
     EXPECT_TRUE(sensitivity.ok());
-    sensitivity.Gradient({1.5e308 * seed});  // the sum of two frames is infinite
-    EXPECT_FALSE(sensitivity.ok());
+    sensitivity.Gradient({1.5e308 * seed});        // the sum of two frames is infinite
+    const int frame = sensitivity.status().frame;  // with two stages: in the step to 4
+    EXPECT_TRUE(frame == 3 || (GetParam() == IntegrationMethod::kTrBdf2 && frame == 4));
+    ExpectNotFinite(sensitivity.status(), frame);
+    // The first failure stays.
+    EXPECT_TRUE(sensitivity.Gradient({seed}).allFinite());
+    ExpectNotFinite(sensitivity.status(), frame);
   }
   {
     Sensitivity sensitivity(&simulator, &rollout);
@@ -39,7 +56,7 @@ TEST_P(DerivativeOverflowTest, IsNotOk) {
     Eigen::VectorXd large = Eigen::VectorXd::Constant(p.size(), 1.7e308);
     for (int k = 0; k < p.size(); k += 2) large[k] *= -1.0;
     sensitivity.JacobianVectorProduct(large, &dx, &dv);
-    EXPECT_FALSE(sensitivity.ok());
+    ExpectNotFinite(sensitivity.status(), 1);
   }
   for (auto jacobian_method : {JacobianMethod::kTangent, JacobianMethod::kAdjoint}) {
     Sensitivity sensitivity(&simulator, &rollout);
@@ -53,7 +70,10 @@ TEST_P(DerivativeOverflowTest, IsNotOk) {
     StateDerivative earlier = derivative;
     earlier.frame = 3;
     sensitivity.Jacobian({earlier, derivative}, 1, jacobian_method);
-    EXPECT_FALSE(sensitivity.ok());
+    ExpectNotFinite(sensitivity.status(), 4);
+    EXPECT_NE(sensitivity.status().Message().find("residual row 0 by "),
+              std::string::npos)
+        << sensitivity.status().Message();
   }
 }
 

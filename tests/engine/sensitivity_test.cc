@@ -286,7 +286,7 @@ INSTANTIATE_TEST_SUITE_P(
     CaseName);
 
 // One step's worth of polls after the first true: of a pass, or of the steps that it
-// takes again.
+// takes again. Its status says where.
 TEST(InterruptedPassTest, StopsWithinAStep) {
   Scene scene = MakeDerivativeScene("flag", 4);
   scene.steps_per_frame = 3;
@@ -317,6 +317,19 @@ TEST(InterruptedPassTest, StopsWithinAStep) {
         passes[i](&sensitivity);
         EXPECT_FALSE(sensitivity.ok()) << "pass " << i << ", after " << after;
         EXPECT_EQ(polls_left, -1) << "pass " << i << ", after " << after;
+        const RolloutStatus& status = sensitivity.status();
+        EXPECT_EQ(status.code, RolloutStatus::Code::kInterrupted);
+        EXPECT_EQ(status.object, 0);
+        if (memory_limit == 0) continue;  // steps that are taken again poll as well
+        const bool backward = i == 0 || i == 2;
+        const int step = backward ? 3 * (kFrames - 1) - 1 - after : after;
+        EXPECT_EQ(status.frame, step / 3 + 1) << "pass " << i << ", after " << after;
+        EXPECT_EQ(status.step, step % 3) << "pass " << i << ", after " << after;
+        EXPECT_EQ(status.Message(),
+                  "the derivative pass was interrupted in object 0 "
+                  "on the way to frame " +
+                      std::to_string(step / 3 + 1) + ", step " +
+                      std::to_string(step % 3));
       }
       // The systems are as they were.
       polls_left = 1 << 30;

@@ -152,8 +152,9 @@ TEST(StabilityCellTest, PoisonedDerivativesAreFoundOut) {
     d->gradient.setConstant(std::numeric_limits<double>::quiet_NaN());
   });
   EXPECT_EQ(silent.Text("gradient", ""), "wrong");
-  const Record refused = RunPoisoned([](Derivatives* d) { d->ok = false; });
+  const Record refused = RunPoisoned([](Derivatives* d) { d->failure = "no way"; });
   EXPECT_EQ(refused.Text("gradient", ""), "refused");
+  EXPECT_EQ(refused.Text("gradient_why", ""), "no way");
 }
 
 TEST(StabilityCellTest, AContactIsNoExcuseForAWrongDerivative) {

@@ -42,22 +42,23 @@ class AdjointSweep {
   }
 
   // Moves the adjoints of all rows that depend on a later state back over step `s`.
-  bool StepBack(int s) {
-    if (!matrices_.Read(s)) return false;
+  StepOutcome StepBack(int s) {
+    StepOutcome outcome = matrices_.Read(s);
+    if (!outcome.ok()) return outcome;
     int active = 0, num_columns = 0;
     while (active < static_cast<int>(blocks_.size()) &&
            blocks_[active].last_frame * steps_per_frame_ > s) {
       num_columns += static_cast<int>(blocks_[active++].rows.size());
     }
     for (int stage = matrices_.num_stages() - 1; stage >= 0; --stage) {
-      if (!matrices_.Linearize(stage, num_columns)) return false;
-      std::atomic<bool> ok{true};
+      std::atomic<bool> ok{matrices_.Linearize(stage, num_columns)};
+      if (!ok) return UnsolvedStep(IsFinite(), /*transposed=*/true);
       ParallelFor(matrices_.num_threads(), active, [&](int b) {
         if (!StepBlockBack(stage, &blocks_[b])) ok = false;
       });
-      if (!ok) return false;
+      if (!ok) return UnsolvedStep(IsFinite(), /*transposed=*/true);
     }
-    return true;
+    return {};
   }
 
   void Finish(RowMajorMatrix* jacobian) {
@@ -74,6 +75,13 @@ class AdjointSweep {
   }
 
  private:
+  bool IsFinite() const {
+    for (const AdjointBlock& block : blocks_) {
+      if (!block.wx.allFinite() || !block.wv.allFinite()) return false;
+    }
+    return true;
+  }
+
   // gradient += the adjoint of the initial state, where that is a parameter.
   void AddInitialState(ParameterKind kind, const RowMajorMatrix& adjoint,
                        RowMajorMatrix* gradient) const {
@@ -156,23 +164,26 @@ class AdjointSweep {
 
 }  // namespace
 
-bool AddAdjointJacobian(const ObjectRecord& record, const StateDerivatives& derivatives,
-                        RowMajorMatrix* jacobian) {
-  if (derivatives.empty() || record.system->columns().used().empty()) return true;
+PassOutcome AddAdjointJacobian(const ObjectRecord& record,
+                               const StateDerivatives& derivatives,
+                               RowMajorMatrix* jacobian) {
+  if (derivatives.empty() || record.system->columns().used().empty()) return {};
   AdjointSweep sweep(record, derivatives, static_cast<int>(jacobian->rows()));
   const int steps_per_frame = record.scene->steps_per_frame;
   int step = sweep.last_frame() * steps_per_frame;
   for (auto it = derivatives.rbegin(); it != derivatives.rend(); ++it) {
     for (; step > (*it)->frame * steps_per_frame; --step) {
-      if (!sweep.StepBack(step - 1)) return false;
+      StepOutcome outcome = sweep.StepBack(step - 1);
+      if (!outcome.ok()) return {std::move(outcome), step - 1};
     }
     sweep.AddSeed(**it);
   }
   for (; step > 0; --step) {
-    if (!sweep.StepBack(step - 1)) return false;
+    StepOutcome outcome = sweep.StepBack(step - 1);
+    if (!outcome.ok()) return {std::move(outcome), step - 1};
   }
   sweep.Finish(jacobian);
-  return true;
+  return {};
 }
 
 }  // namespace dpe

@@ -1,14 +1,29 @@
 #include "derivatives/gradient_pass.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "integrators/integrator.h"
 
 namespace dpe {
+namespace {
 
-bool ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl_dx,
-                    const Eigen::MatrixXd& dl_dv, Eigen::VectorXd* gradient) {
+// Fixed vertices' entries of an adjoint carry no meaning.
+bool IsFiniteAtFree(const ObjectSystem& system, const Eigen::VectorXd& g) {
+  for (int i : system.free_vertices()) {
+    for (int k = 3 * i; k < 3 * i + 3; ++k) {
+      if (!std::isfinite(g[k])) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+PassOutcome ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl_dx,
+                           const Eigen::MatrixXd& dl_dv, Eigen::VectorXd* gradient) {
   ObjectSystem* system = record.system;
   const int n = system->num_coordinates();
   const int steps_per_frame = record.scene->steps_per_frame;
@@ -25,9 +40,14 @@ bool ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl_dx,
   StepStates states;
   const auto& kept = record.tape->factors;
   StepSolver* const solver = system->solver();
+  const auto is_finite = [&]() {
+    return gradient->allFinite() && IsFiniteAtFree(*system, gx) &&
+           IsFiniteAtFree(*system, gv);
+  };
   add_seed(last_frame);
   for (int s = last_frame * steps_per_frame - 1; s >= 0; --s) {
-    if (!reader.Read(s, &states)) return false;
+    StepOutcome outcome = reader.Read(s, &states);
+    if (!outcome.ok()) return {std::move(outcome), s};
     if (s < static_cast<int>(kept.size())) {
       solver->UseFactor(kept[s].get(), system->IsSymmetric());
     } else {
@@ -38,9 +58,14 @@ bool ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl_dx,
     states.meanwhile = &next;
     if (!integrator->AdjointStep(system, solver, states,
                                  {gx.data(), gv.data(), gradient->data()})) {
-      return false;
+      return {
+          UnsolvedStep(integrator->FailedWithFiniteRightSide(), /*transposed=*/true),
+          s};
     }
-    if (s % steps_per_frame == 0) add_seed(s / steps_per_frame);
+    if (s % steps_per_frame == 0) {
+      if (!is_finite()) return {{RolloutStatus::Code::kNotFinite, ""}, s};
+      add_seed(s / steps_per_frame);
+    }
   }
   const ParameterColumns& local = system->local_columns();
   for (int c = 0; c < n; ++c) {
@@ -49,7 +74,8 @@ bool ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl_dx,
     const int of_v = local.Column(ParameterKind::kInitialVelocity, c);
     if (of_v >= 0) (*gradient)[of_v] += gv[c];
   }
-  return true;
+  if (!gradient->allFinite()) return {{RolloutStatus::Code::kNotFinite, ""}, 0};
+  return {};
 }
 
 }  // namespace dpe

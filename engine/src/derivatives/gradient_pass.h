@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "derivatives/pass_outcome.h"
 #include "step_reader.h"
 
 namespace dpe {
@@ -12,9 +13,9 @@ namespace dpe {
 //
 // @param dl_dx, dl_dv  3N x F; 0 x 0 means no dependence
 // @param gradient      out: one value per system->columns().used()
-// @return false if a step's adjoint system could not be solved
-bool ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl_dx,
-                    const Eigen::MatrixXd& dl_dv, Eigen::VectorXd* gradient);
+// @return where and why it stopped, if it did
+PassOutcome ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl_dx,
+                           const Eigen::MatrixXd& dl_dv, Eigen::VectorXd* gradient);
 
 }  // namespace dpe
 

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "derivatives/pass_outcome.h"
 #include "dpe/engine/sensitivity.h"
 #include "step_reader.h"
 
@@ -20,19 +21,20 @@ using StateDerivatives = std::vector<const StateDerivative*>;
 // enough for solves to run at the speed of matrix products.
 constexpr int kPassBlock = 96;
 
-// jacobian (rows x layout columns) += by forward sensitivities. False if a step's
-// system could not be solved.
-bool AddTangentJacobian(const ObjectRecord& record, const StateDerivatives& derivatives,
-                        RowMajorMatrix* jacobian);
+// jacobian (rows x layout columns) += by forward sensitivities.
+PassOutcome AddTangentJacobian(const ObjectRecord& record,
+                               const StateDerivatives& derivatives,
+                               RowMajorMatrix* jacobian);
 
 // The same by one backward sweep of a block of adjoint vectors per residual row.
-bool AddAdjointJacobian(const ObjectRecord& record, const StateDerivatives& derivatives,
-                        RowMajorMatrix* jacobian);
+PassOutcome AddAdjointJacobian(const ObjectRecord& record,
+                               const StateDerivatives& derivatives,
+                               RowMajorMatrix* jacobian);
 
 // The change of the object's states for a change `dp` of the parameters (layout order):
-// dx and dv become 3N x F. False as above.
-bool PropagateTangent(const ObjectRecord& record, const Eigen::VectorXd& dp,
-                      Eigen::MatrixXd* dx, Eigen::MatrixXd* dv);
+// dx and dv become 3N x F.
+PassOutcome PropagateTangent(const ObjectRecord& record, const Eigen::VectorXd& dp,
+                             Eigen::MatrixXd* dx, Eigen::MatrixXd* dv);
 
 }  // namespace dpe
 

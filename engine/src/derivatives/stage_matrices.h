@@ -21,9 +21,9 @@ class StageMatrices {
 
   int num_stages() const { return integrator_->num_stages(); }
 
-  // Reads the states around step `s`; Linearize then takes its stages. False if they
+  // Reads the states around step `s`; Linearize then takes its stages. Not ok if they
   // could not be made again.
-  bool Read(int s) { return reader_.Read(s, &states_); }
+  StepOutcome Read(int s) { return reader_.Read(s, &states_); }
 
   // @param num_columns  of all blocks that will be solved for
   // @return false if the matrix cannot be factorised

@@ -2,6 +2,7 @@
 // once: A dv = Rx dx_in + Rv dv_in + B dp, dx = dx_in + p dv_in + c dv.
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "derivatives/jacobian_pass.h"
 #include "derivatives/stage_matrices.h"
@@ -40,24 +41,32 @@ class TangentSweep {
 
   const std::vector<TangentBlock>& blocks() const { return blocks_; }
 
-  // Moves all directions over step `s`. False if its system cannot be solved.
-  bool Step(int s) {
-    if (!matrices_.Read(s)) return false;
+  // Moves all directions over step `s`.
+  StepOutcome Step(int s) {
+    StepOutcome outcome = matrices_.Read(s);
+    if (!outcome.ok()) return outcome;
     const int num_stages = matrices_.num_stages();
     for (int stage = 0; stage < num_stages; ++stage) {
-      if (!matrices_.Linearize(stage, num_directions_)) return false;
+      std::atomic<bool> ok{matrices_.Linearize(stage, num_directions_)};
+      if (!ok) return UnsolvedStep(IsFinite(), /*transposed=*/false);
       const bool keep_start = stage == 0 && num_stages > 1;
-      std::atomic<bool> ok{true};
       ParallelFor(matrices_.num_threads(), static_cast<int>(blocks_.size()),
                   [&](int b) {
                     if (!StepBlock(keep_start, &blocks_[b])) ok = false;
                   });
-      if (!ok) return false;
+      if (!ok) return UnsolvedStep(IsFinite(), /*transposed=*/false);
+    }
+    return {};
+  }
+
+ private:
+  bool IsFinite() const {
+    for (const TangentBlock& block : blocks_) {
+      if (!block.dx.allFinite() || !block.dv.allFinite()) return false;
     }
     return true;
   }
 
- private:
   // state := the seed of the initial state, where that is a parameter.
   void SeedInitialState(ParameterKind kind, const TangentBlock& block,
                         RowMajorMatrix* state) const {
@@ -146,15 +155,17 @@ void AddRows(const ObjectSystem& system, const SparseRows& d_state, int first_ro
 
 }  // namespace
 
-bool AddTangentJacobian(const ObjectRecord& record, const StateDerivatives& derivatives,
-                        RowMajorMatrix* jacobian) {
-  if (derivatives.empty() || record.system->columns().used().empty()) return true;
+PassOutcome AddTangentJacobian(const ObjectRecord& record,
+                               const StateDerivatives& derivatives,
+                               RowMajorMatrix* jacobian) {
+  if (derivatives.empty() || record.system->columns().used().empty()) return {};
   TangentSweep sweep(record, nullptr);
   const int steps_per_frame = record.scene->steps_per_frame;
   int step = 0;
   for (const StateDerivative* d : derivatives) {
     for (; step < d->frame * steps_per_frame; ++step) {
-      if (!sweep.Step(step)) return false;
+      StepOutcome outcome = sweep.Step(step);
+      if (!outcome.ok()) return {std::move(outcome), step};
     }
     ParallelFor(record.options->num_threads, static_cast<int>(sweep.blocks().size()),
                 [&](int b) {
@@ -165,17 +176,17 @@ bool AddTangentJacobian(const ObjectRecord& record, const StateDerivatives& deri
                           block.first, jacobian);
                 });
   }
-  return true;
+  return {};
 }
 
-bool PropagateTangent(const ObjectRecord& record, const Eigen::VectorXd& dp,
-                      Eigen::MatrixXd* dx, Eigen::MatrixXd* dv) {
+PassOutcome PropagateTangent(const ObjectRecord& record, const Eigen::VectorXd& dp,
+                             Eigen::MatrixXd* dx, Eigen::MatrixXd* dv) {
   const ObjectSystem& system = *record.system;
   const int num_frames = static_cast<int>(record.positions->cols());
   dx->setZero(system.num_coordinates(), num_frames);
   dv->setZero(system.num_coordinates(), num_frames);
   const std::vector<int>& columns = system.columns().used();
-  if (columns.empty()) return true;
+  if (columns.empty()) return {};
   RowMajorMatrix seed(columns.size(), 1);
   for (size_t k = 0; k < columns.size(); ++k) seed(k, 0) = dp[columns[k]];
   TangentSweep sweep(record, &seed);
@@ -183,12 +194,16 @@ bool PropagateTangent(const ObjectRecord& record, const Eigen::VectorXd& dp,
   for (int frame = 0; frame < num_frames; ++frame) {
     const int end = frame * steps_per_frame;
     for (int s = std::max(end - steps_per_frame, 0); s < end; ++s) {
-      if (!sweep.Step(s)) return false;
+      StepOutcome outcome = sweep.Step(s);
+      if (!outcome.ok()) return {std::move(outcome), s};
     }
     system.ScatterFree(sweep.blocks()[0].dx.data(), dx->col(frame).data());
     system.ScatterFree(sweep.blocks()[0].dv.data(), dv->col(frame).data());
+    if (!dx->col(frame).allFinite() || !dv->col(frame).allFinite()) {
+      return {{RolloutStatus::Code::kNotFinite, ""}, std::max(end - 1, 0)};
+    }
   }
-  return true;
+  return {};
 }
 
 }  // namespace dpe

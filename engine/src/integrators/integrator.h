@@ -15,6 +15,8 @@
 #define DPE_ENGINE_INTEGRATORS_INTEGRATOR_H_
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -101,6 +103,12 @@ class Integrator {
   // @return false if the step's linear system cannot be solved
   virtual bool AdjointStep(ObjectSystem* system, StepSolver* solver,
                            const StepStates& states, const StepAdjoint& adjoint) = 0;
+
+  // Of an adjoint step that returned false: whether what it was to solve for is finite.
+  bool FailedWithFiniteRightSide() const {
+    return std::all_of(lambda_.begin(), lambda_.end(),
+                       [](double value) { return std::isfinite(value); });
+  }
 
   // Linearises stage `stage`; assembles A into solver's values.
   virtual void TangentStage(int stage, ObjectSystem* system, StepSolver* solver,

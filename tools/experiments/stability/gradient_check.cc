@@ -173,7 +173,7 @@ double RoundingOf(const Eigen::MatrixXd& positions) {
   return std::numeric_limits<double>::epsilon() * positions.norm();
 }
 
-GradientCheck Refused(GradientVerdict verdict, const char* why) {
+GradientCheck Refused(GradientVerdict verdict, const std::string& why) {
   GradientCheck check;
   check.verdict = verdict;
   check.why = why;
@@ -208,7 +208,7 @@ Derivatives EngineDerivatives(Simulator* simulator, const Rollout& rollout,
     sensitivity.JacobianVectorProduct(d, &dx, &dv);
     result.tangents.push_back(dx[0]);
   }
-  result.ok = sensitivity.ok();
+  if (!sensitivity.ok()) result.failure = sensitivity.status().Message();
   return result;
 }
 
@@ -239,9 +239,8 @@ GradientCheck CheckGradient(const Scene& scene, int num_frames,
   const Eigen::MatrixXd weights =
       Eigen::MatrixXd::NullaryExpr(x.rows(), x.cols(), [&] { return uniform(random); });
   const Derivatives exact = derivatives(&simulator, rollout, weights, vectors);
-  if (!exact.ok) {
-    return Refused(GradientVerdict::kRefused,
-                   "a system of the derivative pass could not be solved");
+  if (!exact.failure.empty()) {
+    return Refused(GradientVerdict::kRefused, exact.failure);
   }
   const VectorFunction f = [&](const Eigen::VectorXd& q) -> Eigen::VectorXd {
     const Rollout moved = simulator.Run(q, num_frames);

@@ -50,7 +50,7 @@ struct GradientCheck {
 struct Derivatives {
   Eigen::VectorXd gradient;               // of L
   std::vector<Eigen::MatrixXd> tangents;  // of the positions, one per direction
-  bool ok = false;
+  std::string failure;                    // empty: none
 };
 using DerivativeFunction = std::function<Derivatives(
     Simulator*, const Rollout&, const Eigen::MatrixXd& weights,

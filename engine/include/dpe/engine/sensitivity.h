@@ -42,6 +42,7 @@ struct JacobianCosts {
 };
 
 struct ObjectRecord;
+struct PassOutcome;
 
 class DPE_ENGINE_API Sensitivity {
  public:
@@ -83,17 +84,24 @@ class DPE_ENGINE_API Sensitivity {
   // What kAuto would choose: the method with less predicted work.
   JacobianMethod CheaperMethod(const std::vector<StateDerivative>& derivatives) const;
 
-  // False after a derivative pass whose linear systems could not be solved, whose
+  // Not ok after a derivative pass whose linear systems could not be solved, whose
   // result is not finite (derivatives of an unstable motion grow with every step), or
-  // that was interrupted (SimulatorOptions::interrupted).
-  bool ok() const { return ok_; }
+  // that was interrupted (SimulatorOptions::interrupted): object, frame, step and
+  // reason of the first one. What that pass returned is then not to be used.
+  const RolloutStatus& status() const { return status_; }
+  bool ok() const { return status_.ok(); }
 
  private:
   ObjectRecord Record(int object) const;
+  // Keeps the first failure.
+  void Note(int object, const PassOutcome& pass);
+  // Notes the first entry that is not finite, if there is one.
+  void NoteNotFinite(const std::vector<StateDerivative>& derivatives,
+                     const RowMajorMatrix& jacobian);
 
   Simulator* simulator_;
   const Rollout* rollout_;
-  bool ok_ = true;
+  RolloutStatus status_;
 };
 
 }  // namespace dpe

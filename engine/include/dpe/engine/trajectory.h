@@ -10,19 +10,23 @@
 
 namespace dpe {
 
-// Whether a rollout reached its last frame, and if not, where and why it stopped.
+// Whether a rollout reached its last frame, or a derivative pass over it came through,
+// and if not, where and why it stopped.
 struct RolloutStatus {
+  enum class Pass { kRollout, kDerivative };
   enum class Code {
     kOk,
-    kNotFinite,           // a state became NaN or infinite, or left 1e12 m
+    kNotFinite,           // a state became NaN or infinite, or left 1e12 m; or a
+                          // derivative did, which grows with each unstable step
     kNewtonFailed,        // Newton's method did not converge
     kLinearSolverFailed,  // the step's linear system could not be solved
     kInterrupted,         // the caller's `interrupted` said so
   };
+  Pass pass = Pass::kRollout;
   Code code = Code::kOk;
   int object = -1;
-  int frame = -1;  // the frame that could not be reached
-  int step = -1;   // step within that frame
+  int frame = -1;  // the frame that could not be reached, or come from
+  int step = -1;   // step within that frame; -1: found at the frame's end
   std::string reason;
 
   bool ok() const { return code == Code::kOk; }
