@@ -221,6 +221,16 @@ std::string ObjectSystem::UndefinedReason(const double* x) const {
   return {};
 }
 
+double ObjectSystem::ContactTerms(const double* x) const {
+  double sum = 0.0;
+  for (const ColliderTerm* term : colliders_) {
+    const ColliderKernel& collider = term->kernel();
+    sum += collider.stiffness() *
+           collider.RoundedLength(Eigen::Map<const Eigen::Vector3d>(x));
+  }
+  return sum;
+}
+
 bool ObjectSystem::IsSymmetric() const {
   return std::all_of(terms_.begin(), terms_.end(),
                      [](const auto& term) { return term->IsSymmetric(); });

@@ -102,6 +102,9 @@ class ObjectSystem {
                            ParameterSink* sink) const;
   // Why some force is not defined at x, naming the element; empty if all are.
   std::string UndefinedReason(const double* x) const;
+  // How large the terms are of which contact forces at a free vertex at x (m) are the
+  // differences, N.
+  double ContactTerms(const double* x) const;
   // True if df/dx and df/dv are symmetric at the current parameters.
   bool IsSymmetric() const;
 

@@ -48,6 +48,13 @@ void ColliderKernel::Value(int /*e*/, const ElementInput<1>& in,
   *phi += stiffness_ * ((depth / length) * (in.dq[0] - rate * u) - rate * u);
 }
 
+double ColliderKernel::RoundedLength(const Eigen::Vector3d& x) const {
+  const Eigen::Vector3d d = x - position_;
+  if (!is_sphere_) return normal_.dot(d) < 0.0 ? d.norm() : 0.0;
+  const double length = d.norm();
+  return length < radius_ ? length + radius_ : 0.0;
+}
+
 void ColliderKernel::Expand(int /*e*/, const ElementInput<1>& in,
                             Expansion<1>* out) const {
   out->dq[0].setZero();

@@ -38,6 +38,11 @@ class ColliderKernel {
   void Value(int e, const ElementInput<1>& in, Eigen::Vector3d* phi) const;
   void Expand(int e, const ElementInput<1>& in, Expansion<1>* out) const;
 
+  // What rounds at x is the product of stiffness and this length (m), |d| and r, of
+  // which the force is a difference; 0 without contact.
+  double RoundedLength(const Eigen::Vector3d& x) const;
+  double stiffness() const { return stiffness_; }
+
   bool OwnsAny(const ParameterSink& /*sink*/) const { return false; }
   template <class Report>
   void Parameters(int, const ElementInput<1>&, const Report&) const {}

@@ -54,6 +54,7 @@ class ElementTerm final : public ForceTerm {
   explicit ElementTerm(Kernel kernel) : kernel_(std::move(kernel)) {}
 
   int num_elements() const { return static_cast<int>(kernel_.elements.size()); }
+  const Kernel& kernel() const { return kernel_; }
   // Its elements must stay.
   Kernel* mutable_kernel() { return &kernel_; }
 

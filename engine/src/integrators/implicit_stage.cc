@@ -72,9 +72,11 @@ double ImplicitStage::RoundingLevel(const double* values) const {
   for (int node = 0; node < system_->pattern().num_nodes(); ++node) {
     const BlockSlot& slot = diagonal[node];
     const int k = 3 * system_->free_vertices()[node];
+    const double contact = c_ * system_->ContactTerms(x_ + k);
     for (int c = 0; c < 3; ++c) {
       const double level = values[slot.offset + c * slot.stride + c] *
-                           (std::abs(x_[k + c]) / c_ + std::abs(v_[k + c]));
+                               (std::abs(x_[k + c]) / c_ + std::abs(v_[k + c])) +
+                           contact;
       sum += level * level;
     }
   }

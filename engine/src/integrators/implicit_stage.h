@@ -34,7 +34,8 @@ class ImplicitStage {
   // term.
   double Residual();
   // What rounding of x and v leaves of r: eps |A_ii| (|x_i| / c + |v_i|), since the
-  // elements' forces are differences of positions times c^2 K / c.
+  // elements' forces are differences of positions times c^2 K / c; and eps c K (l + r)
+  // of a vertex in contact, where the obstacle's K (r - l) is a difference.
   // @param values  of Newton's matrix
   double RoundingLevel(const double* values) const;
   // Moves v along the Newton step in free_, halving it until |r| falls.
