@@ -190,7 +190,7 @@ class Fit {
         ShootForStart(fit_.captures()[0], start_.coordinates, &context_);
     summary_.notes.insert(summary_.notes.end(), shot.notes.begin(), shot.notes.end());
     context_.first_iteration = context_.num_iterations;
-    TakeBetter(shot.coordinates);
+    TakeBetter({shot.coordinates});
   }
 
   // @param resumed  where to continue; null: at the start
@@ -203,15 +203,22 @@ class Fit {
     summary_.evaluations += grown.num_rollouts;
     summary_.jacobian_evaluations += grown.num_derivative_passes;
     context_.first_iteration = context_.num_iterations;
-    if (grown.ok) TakeBetter(grown.coordinates);
+    if (!grown.ok) return;
+    std::vector<Eigen::VectorXd> points = {grown.coordinates};
+    if (grown.before != start_.coordinates) points.push_back(grown.before);
+    TakeBetter(points);
+    // What was learnt of steps was learnt elsewhere.
+    if (problem()->coordinates() != grown.coordinates) context_.initial_radius = 0.0;
   }
 
-  // Goes on from the better of the start, if it can be simulated, and what has been
-  // made of it.
-  void TakeBetter(const Eigen::VectorXd& coordinates) {
-    const StopControl::Grace grace(&stop_);
-    const bool is_ok = evaluator()->Evaluate(coordinates);
-    if (!start_.ok) {
+  // Goes on from the best of the start, if it can be simulated, and what has been made
+  // of it, of which the first is looked at even if the fit was stopped.
+  void TakeBetter(const std::vector<Eigen::VectorXd>& points) {
+    for (size_t i = 0; i < points.size(); ++i) {
+      if (i > 0 && stop_.stopped()) break;
+      const StopControl::Grace grace(&stop_);
+      const bool is_ok = evaluator()->Evaluate(points[i]);
+      if (start_.ok) continue;
       start_.ok = is_ok;
       start_.message = evaluator()->message();
       if (is_ok) RecordStart();

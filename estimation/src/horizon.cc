@@ -37,6 +37,7 @@ class HorizonGrower {
     int step = kFirstHorizon - 1;
     if (resumed != nullptr) {
       result_.coordinates = resumed->coordinates;
+      result_.before = start;
       step = resumed->num_frames - solved;
       stage_context_.initial_radius = resumed->radius;
       stage_context_.horizons = resumed->horizons;
@@ -89,8 +90,17 @@ class HorizonGrower {
     FitProblem fit(CutCaptures(captures_, num_frames), options_, context_->stop);
     TrajectoryEvaluator* evaluator = fit.evaluator();
     FindCommonValues(fit);
-    const bool ok = evaluator->Evaluate(result_.coordinates);
+    if (result_.before.size() > 0 && result_.before != result_.coordinates) {
+      evaluator->Evaluate(result_.before);
+    }
+    bool ok = evaluator->Evaluate(result_.coordinates);
+    if (ok && evaluator->best_coordinates() != result_.coordinates) {
+      ok = evaluator->Evaluate(result_.before);
+      result_.coordinates = result_.before;
+      stage_context_.initial_radius = 0.0;  // what was learnt of steps was elsewhere
+    }
     if (ok) {
+      result_.before = result_.coordinates;
       HorizonStage stage;
       stage.num_frames = num_frames;
       stage.start_rms = fit.best_rms();

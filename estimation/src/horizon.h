@@ -5,6 +5,10 @@
 // cost over many frames has many local minima, and over few frames one wide basin. What
 // the first frames determine is close enough to the answer for a few more. (With
 // L-BFGS, which stops far from the answer of each horizon, that is not so.)
+//
+// What they do not determine a fit to them may change by any factor to follow their
+// noise. So each horizon starts from what is better over its own frames: what the one
+// before ended with, or what it had started with.
 #ifndef DPE_ESTIMATION_HORIZON_H_
 #define DPE_ESTIMATION_HORIZON_H_
 
@@ -23,7 +27,8 @@ struct GrownHorizon {
   bool ok = false;      // false: not even the first frames could be fitted
   std::string message;  // why not
   std::vector<std::string> notes;
-  Eigen::VectorXd coordinates;  // the start for all frames
+  Eigen::VectorXd coordinates;  // the last horizon's end
+  Eigen::VectorXd before;       // and its start: either may be better over all frames
   int num_rollouts = 0;
   int num_derivative_passes = 0;
 };

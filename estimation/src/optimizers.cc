@@ -120,7 +120,7 @@ double SetUniformDamping(TrajectoryProblem* problem, ceres::Solver::Options* sol
   return largest;
 }
 
-OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
+OptimizerResult SolveByLevenbergMarquardt(OptimizerContext* context) {
   const EstimatorOptions& options = *context->options;
   ceres::Solver::Options solver = LevenbergMarquardtOptions();
   solver.max_num_iterations = MaxIterations(*context, kDefaultLmIterations);
@@ -130,6 +130,7 @@ OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
         std::min(context->initial_radius * damping, solver.max_trust_region_radius);
     context->initial_radius = 0.0;
   }
+  context->last_radius = 0.0;
   solver.function_tolerance = options.function_tolerance;
   solver.gradient_tolerance = options.gradient_tolerance;
   solver.parameter_tolerance = options.parameter_tolerance;
@@ -149,6 +150,18 @@ OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
   }
   RestoreBest(context->problem());
   return Explain(*context, summary.termination_type, summary.message);
+}
+
+OptimizerResult MinimizeByLevenbergMarquardt(OptimizerContext* context) {
+  const bool is_carried = context->initial_radius > 0.0;
+  OptimizerResult result = SolveByLevenbergMarquardt(context);
+  // A radius from elsewhere may be so small that no step seems worth taking.
+  const bool has_moved = context->last_radius > 0.0;
+  if (!is_carried || has_moved || result.termination != Termination::kConverged ||
+      context->fit->IsAtRounding()) {
+    return result;
+  }
+  return SolveByLevenbergMarquardt(context);
 }
 
 OptimizerResult MinimizeByLbfgs(OptimizerContext* context) {

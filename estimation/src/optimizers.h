@@ -23,7 +23,7 @@ struct OptimizerContext {
   // of Ceres's trust region divided by its uniform damping (see SetUniformDamping), so
   // that the next solve can go on with the steps of the one before.
   double initial_radius = 0.0;
-  double last_radius = 0.0;  // after the last accepted step; 0: none, or no such thing
+  double last_radius = 0.0;  // after the last accepted step; 0: the last solve had none
   std::vector<HorizonStage>
       horizons;  // fitted so far, and the one that is being fitted
   // Called after every iteration whose step was accepted, if set.

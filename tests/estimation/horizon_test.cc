@@ -93,6 +93,33 @@ TEST(HorizonTest, ElementsThatDifferAreNotMadeAlike) {
   EXPECT_FALSE(test::HasNote(summary, "one value for all"));
 }
 
+// What the first frames do not determine a fit to them changes by any factor to follow
+// their noise; from there the way back is long, or there is none.
+TEST(HorizonTest, NoiseOfTheFirstFramesDoesNotLeadAway) {
+  constexpr double kSigma = 0.005;
+  Scene scene = test::MakeDerivativeScene("corners", 6);
+  ApplySettings("nR", &scene);
+  scene.objects[0].estimate_damping = true;
+  Eigen::VectorXd truth(4);
+  truth << 45.0, 25.0, 6.0, 0.1;
+  ParameterLayout(scene).Insert(truth, &scene);
+  const Observations motion = test::OwnMotion(scene, kFrames);
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    Observations seen = motion;
+    seen.sigma = kSigma;
+    AddNoise(scene, kSigma, seed, &seen);
+    for (int v = 0; v < scene.objects[0].num_vertices(); ++v) {
+      if (v % 4 != 0) seen.positions[0].middleRows(3 * v, 3).setConstant(std::nan(""));
+    }
+    EstimatorOptions options;
+    options.init = InitMethod::kScene;
+    options.init_perturbation = 0.3;
+    options.seed = seed;
+    const EstimatorSummary summary = Estimate(scene, seen, options);
+    EXPECT_LT(summary.final_rms, 1.1 * std::sqrt(3.0) * kSigma) << seed;
+  }
+}
+
 // Where the first frames were not seen, windows in the middle of the motion are fitted.
 TEST(HorizonTest, ShootingStartsFromWindows) {
   Scene scene = test::MakeDerivativeScene("side", 4);
