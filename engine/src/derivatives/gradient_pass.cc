@@ -40,10 +40,6 @@ PassOutcome ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl
   StepStates states;
   const auto& kept = record.tape->factors;
   StepSolver* const solver = system->solver();
-  const auto is_finite = [&]() {
-    return gradient->allFinite() && IsFiniteAtFree(*system, gx) &&
-           IsFiniteAtFree(*system, gv);
-  };
   add_seed(last_frame);
   for (int s = last_frame * steps_per_frame - 1; s >= 0; --s) {
     StepOutcome outcome = reader.Read(s, &states);
@@ -63,7 +59,10 @@ PassOutcome ObjectGradient(const ObjectRecord& record, const Eigen::MatrixXd& dl
           s};
     }
     if (s % steps_per_frame == 0) {
-      if (!is_finite()) return {{RolloutStatus::Code::kNotFinite, ""}, s};
+      if (!gradient->allFinite() || !IsFiniteAtFree(*system, gx) ||
+          !IsFiniteAtFree(*system, gv)) {
+        return {{RolloutStatus::Code::kNotFinite, ""}, s};
+      }
       add_seed(s / steps_per_frame);
     }
   }

@@ -95,7 +95,7 @@ class DPE_ENGINE_API Sensitivity {
   ObjectRecord Record(int object) const;
   // Keeps the first failure.
   void Note(int object, const PassOutcome& pass);
-  // Notes the first entry that is not finite, if there is one.
+  // Notes the first entry that is not finite; there has to be one.
   void NoteNotFinite(const std::vector<StateDerivative>& derivatives,
                      const RowMajorMatrix& jacobian);
 
